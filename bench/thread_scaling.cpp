@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -18,23 +20,45 @@
 namespace bench {
 namespace {
 
-const TableHead threads_head = {
-    "thread_scaling",
-    "The same work on 1, 2, ... threads: of each the round that took least on the wall",
-    {{"what", "what"},
-     {"threads", "threads"},
-     {"wall_s", "s on the wall"},
-     {"processor_s", "s on processors"},
-     {"efficiency", "efficiency, t1 / (n tn)"},
-     {"work", "work, times that of one thread"},
-     {"busy", "of each thread's time, busy"}}};
+const TableHead threads_head = {"thread_scaling",
+                                "The same work on 1, 2, ... threads: of each the round that took least on "
+                                "the wall; the last two columns leave out for how long "
+                                "threads were ready and other programs had the processors",
+                                {{"what", "what"},
+                                 {"threads", "threads"},
+                                 {"wall_s", "s on the wall"},
+                                 {"processor_s", "s on processors"},
+                                 {"work", "work, times that of one thread"},
+                                 {"efficiency", "efficiency, t1 / (n tn)"},
+                                 {"busy", "busy, of the time left"},
+                                 {"own_efficiency", "efficiency in the time left"}}};
 
 constexpr double efficiency_goal = 0.8;
 
+struct ScaledSeconds {
+  double wall, processor;
+  /// For which threads were ready, all together, while other programs ran; empty if the work was another process.
+  std::optional<double> kept_waiting;
+
+  /// Of the time of n threads, less what others took of it.
+  double busy(double n) const { return processor / (n * wall - *kept_waiting); }
+};
+
 struct Scaled {
   std::string what;
-  std::function<RunSeconds(std::size_t threads)> run;
+  std::function<ScaledSeconds(std::size_t threads)> run;
 };
+
+/// Of all threads of this process, since they began: the second number that Linux has of each.
+double kept_waiting_seconds() {
+  double seconds = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "schedstat");
+    double running_ns = 0, waiting_ns = 0;
+    if (file >> running_ns >> waiting_ns) seconds += 1e-9 * waiting_ns;
+  }
+  return seconds;
+}
 
 /// 1, 2, 4, ... and all.
 std::vector<std::size_t> thread_counts() {
@@ -49,30 +73,36 @@ std::vector<std::size_t> thread_counts() {
 Scaled in_process(std::string what, std::function<void()> call) {
   return {std::move(what), [call = std::move(call)](std::size_t threads) {
             const condyle::core::ThreadLimit limit(threads);
+            const double waited = kept_waiting_seconds();
             const Stopwatch watch;
             call();
-            return RunSeconds{watch.wall_seconds(), watch.processor_seconds()};
+            const double wall = watch.wall_seconds(), processor = watch.processor_seconds();
+            return ScaledSeconds{wall, processor, kept_waiting_seconds() - waited};
           }};
 }
 
 /// Rounds, each number of threads once a round, so that whatever slows the machine down slows all of them.
 void add_rows(const Scaled& work, int rounds, Report& report) {
   const std::vector<std::size_t> counts = thread_counts();
-  std::vector<RunSeconds> least(counts.size(), {std::numeric_limits<double>::infinity(), 0});
+  std::vector<ScaledSeconds> least(counts.size(), {std::numeric_limits<double>::infinity(), 0, {}});
   work.run(counts.back());
   for (int round = 0; round < rounds; ++round)
     for (std::size_t i = 0; i < counts.size(); ++i)
-      if (const RunSeconds now = work.run(counts[i]); now.wall < least[i].wall) least[i] = now;
+      if (const ScaledSeconds now = work.run(counts[i]); now.wall < least[i].wall) least[i] = now;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const auto n = static_cast<double>(counts[i]);
+    const double growth = least[i].processor / least[0].processor;
     const double efficiency = least[0].wall / (n * least[i].wall);
+    const bool is_known = least[i].kept_waiting.has_value();
+    const double own = is_known ? least[i].busy(n) / (least[0].busy(1) * growth) : efficiency;
+    const Cell none = std::string("-");
     report.table(threads_head)
-        .add({work.what, static_cast<std::int64_t>(counts[i]), least[i].wall, least[i].processor, efficiency,
-              least[i].processor / least[0].processor, least[i].processor / (n * least[i].wall)});
+        .add({work.what, static_cast<std::int64_t>(counts[i]), least[i].wall, least[i].processor, growth,
+              efficiency, is_known ? Cell(least[i].busy(n)) : none, is_known ? Cell(own) : none});
     if (i > 0 && i + 1 == counts.size())
       add_goal(
           {work.what + ": efficiency of all threads", "threads", Bound::at_least, efficiency_goal, "of 1"},
-          efficiency, report);
+          own, report);
   }
 }
 
@@ -118,7 +148,7 @@ void ask_threads(const Scene& scene, Effort effort, Report& report) {
                   run_command({"--threads", fmt::format("{}", threads), "study", folder.file("table.csv"),
                                "--out", folder.file(fmt::format("out{}", run++))});
               if (!seconds) throw std::runtime_error("condyle study: no answer");
-              return *seconds;
+              return ScaledSeconds{seconds->wall, seconds->processor, {}};
             }},
            rounds, report);
 }
