@@ -195,7 +195,8 @@ void hold_deepest(const Arena& arena, Report& report) {
     };
     others.push_back(at_poses(arena, kind, ask_depth, count_deepest));
   }
-  Contest contest{"deepest", "touch, and how deep the deepest place is", "poses", arena.poses.size(), {}};
+  Contest contest{
+      "deepest", "deepest place: do two meshes meet, and how deep are they", "poses", arena.poses.size(), {}};
   hold(contest, at_poses(arena, *method_named("two_meshes"), ask_depth, count_deepest), others,
        arena.seconds());
   report_contest(contest, arena.scene.joint.name, report);
@@ -284,7 +285,7 @@ void hold_first_contact(const Arena& arena, Report& report) {
     if (const auto kind = method_named(name))
       others.push_back(
           about_axes(axes, *kind, {"_bisected", ", by 1° and bisected"}, stepping(coarse_step, bisected_to)));
-  Contest contest{"first_contact", "first contact about an axis, its table included", "axes", count, {}};
+  Contest contest{"first_contact", "first contact: about an axis, its table included", "axes", count, {}};
   hold(contest, about_axes(axes, *method_named("two_meshes"), {}, asked), others, arena.seconds());
   report_contest(contest, arena.scene.joint.name, report);
 }
@@ -409,8 +410,7 @@ void hold_map(const Arena& arena, Report& report) {
                 out[p] = stepped_free([&](Angle at) { return method->touch(grid->at(p, at)); });
             });
           }));
-  Contest contest{
-      "map", "map of combined motion: all free angles of a third angle", "points", grid->grid.size(), {}};
+  Contest contest{"map", "map: all free angles of a third angle", "points", grid->grid.size(), {}};
   hold(contest, ours, others, arena.seconds());
   report_contest(contest, arena.scene.joint.name, report);
 }
@@ -423,10 +423,10 @@ void ask_beside_others(const Scene& scene, Effort effort, Report& report) {
     return k.answers.inside && k.depth == DepthKind::nearest_surface;
   };
   hold_at_poses<Vertices>(
-      {"inside", "inside at a pose: which vertices are", "vertices", 0, {}}, arena, "radial",
+      {"inside", "inside at a pose: which vertices", "vertices", 0, {}}, arena, "radial",
       [](const MethodKind& k) { return k.answers.inside; }, ask_inside, count_inside, report);
   hold_at_poses<Pairs>(
-      {"pairs", "pairs of triangles that meet", "pairs", 0, {}}, arena, "trees",
+      {"pairs", "pairs: which triangles meet", "pairs", 0, {}}, arena, "trees",
       [](const MethodKind& k) { return k.answers.pairs; }, ask_pairs, count_pairs, report);
   hold_at_poses<BodyDepth>(
       {"touch", "touch: do two meshes meet", "poses", 0, {}}, arena, "trees",
@@ -434,9 +434,12 @@ void ask_beside_others(const Scene& scene, Effort effort, Report& report) {
   hold_deepest(arena, report);
   hold_first_contact(arena, report);
   hold_map(arena, report);
-  hold_at_poses<Vertices>(
-      {"depth", "depth of every vertex inside, to the nearest point of the surface", "vertices", 0, {}},
-      arena, "nearest", is_nearest, ask_inside, count_depths, report);
+  hold_at_poses<Vertices>({"depth",
+                           "depth of every vertex: of those inside, to the nearest point of the surface",
+                           "vertices",
+                           0,
+                           {}},
+                          arena, "nearest", is_nearest, ask_inside, count_depths, report);
 }
 
 }  // namespace bench

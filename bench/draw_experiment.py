@@ -11,6 +11,7 @@ FOLDER gets
 """
 import csv
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -62,19 +63,22 @@ def accuracy_series(rows, question):
 def draw_ratios(path, folder):
     with open(path, encoding="utf-8") as file:
         rows = next(table["rows"] for table in json.load(file)["tables"] if table["name"] == "beside_others")
-    _, ax = plt.subplots(figsize=(8, 0.8 + 0.7 * len(rows)), layout="constrained")
+    _, ax = plt.subplots(figsize=(8, 0.8 + 0.6 * len(rows)), layout="constrained")
     kinds = (("fastest", "the fastest other", "#9aa5b1"), ("right", "the fastest without a wrong answer", "#2a6f97"))
+    ratios = [1]
     for offset, (key, label, colour) in zip((-0.2, 0.2), kinds):
         there = [(i + offset, row) for i, row in enumerate(rows) if not isinstance(row[f"{key}_ratio"], str)]
-        bars = ax.barh([y for y, _ in there], [row[f"{key}_ratio"] - 1 for _, row in there], 0.36, left=1, color=colour,
-                       label=label)
-        ax.bar_label(bars, [f"{row[f'{key}_ratio']:.3g}  {row[key]}" for _, row in there], padding=3, fontsize=7)
+        widths = [row[f"{key}_ratio"] - 1 for _, row in there]
+        bars = ax.barh([y for y, _ in there], widths, 0.36, left=1, color=colour, label=label)
+        names = [f"{row[f'{key}_ratio']:.3g}  {re.split('[ ,]', row[key])[0]}" for _, row in there]
+        ax.bar_label(bars, names, padding=3, fontsize=8)
+        ratios += [row[f"{key}_ratio"] for _, row in there]
     ax.axvline(1, color="black", linewidth=0.8)
-    ax.set(xscale="log", xlabel="times Condyle's time", yticks=range(len(rows)))
-    ax.set_yticklabels([row["question"].partition(":")[0] for row in rows])
-    ax.margins(x=0.6)
+    # Room for the names beside the longest bars, to either side.
+    ax.set(xscale="log", xlim=(min(ratios) / 8, max(ratios) * 8), xlabel="times Condyle's time")
+    ax.set_yticks(range(len(rows)), [row["question"].partition(":")[0] for row in rows])
     ax.invert_yaxis()
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2, frameon=False)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False, fontsize=8)
     target = Path(folder) / "beside_others.svg"
     figures.save(ax, target)
     plt.close("all")
