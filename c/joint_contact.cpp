@@ -6,11 +6,7 @@
 
 #include "boundary.hpp"
 #include "condyle/answer.hpp"
-#include "condyle/contact.hpp"
-
-struct condyle_joint_contact {
-  condyle::contact::JointContact joint;
-};
+#include "joint_contact.hpp"
 
 struct condyle_contact_results {
   bool has_answer = false;

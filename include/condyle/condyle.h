@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 /// The C interface, of the shared library libcondyle_c.so.1: meshes, contact of two bodies at a pose, depths along normals,
-/// elastic contact with forces for simulators, and rotation about an axis up to contact; contacts follow bodies that deform.
+/// elastic contact with forces for simulators, and rotation about an axis or a slide up to contact; contacts follow bodies that deform.
 /// docs/c-interface.md. C99 and C++; link with -lcondyle_c.
 ///
 /// Units: mm, N, N mm, MPa, s; angles are degrees, angular velocities rad/s. Frames: F is that of the fixed body, M that of the mobile body; a pose X_FM
@@ -486,6 +486,54 @@ CONDYLE_API condyle_status condyle_first_contact_limits(const condyle_first_cont
                                                         const condyle_pose* X_FM, double negative_deg,
                                                         double positive_deg, condyle_rotation_limit* negative,
                                                         condyle_rotation_limit* positive);
+
+// ---- turns and slides -----------------------------------------------------------------------------------------------------
+
+/// All that is free of a turn, in degrees, or of a slide, in mm, from the start: nothing meets between `low` and `high`, and contact is
+/// outside by no more than the error bounds.
+typedef struct condyle_free_interval {
+  double low, high;
+  double low_error_bound, high_error_bound;
+} condyle_free_interval;
+
+/// The free intervals of the last turn or slide.
+typedef struct condyle_free_results condyle_free_results;
+
+CONDYLE_API condyle_status condyle_free_results_create(condyle_free_results** results);
+CONDYLE_API void condyle_free_results_destroy(condyle_free_results* results);
+
+/// The mobile body turns about an axis of F from X_FM: first contact in both senses, up to a whole turn, and with `results` every interval
+/// of a whole turn in which the bodies are free. One that holds the start goes from below 0 to above, others lie between 0 and 360; a body
+/// that meets nothing is free from -180 to 180. After an error the results have no answer.
+CONDYLE_API condyle_status condyle_joint_contact_turn(const condyle_joint_contact* contact,
+                                                      const condyle_pose* X_FM, const double axis_point_mm[3],
+                                                      const double axis_direction[3],
+                                                      condyle_rotation_limit* negative,
+                                                      condyle_rotation_limit* positive,
+                                                      condyle_free_results* results);
+
+/// First contact of a slide.
+typedef struct condyle_slide_limit {
+  double moved_mm;  ///< along the direction, signed: 0 in contact at the start, infinite if nothing meets
+  double error_bound_mm;  ///< contact is at moved_mm or past it by at most this, never before
+  int reason;             ///< as of a rotation
+  int has_witness;        ///< 0 without contact, and in contact at the start
+  uint32_t fixed_triangle, mobile_triangle;      ///< what meets
+  double fixed_point_mm[3], mobile_point_mm[3];  ///< where, each in its own body's frame
+} condyle_slide_limit;
+
+/// The mobile body slides along a direction of F, of any length but zero, from X_FM: likewise against and along it. The first interval
+/// may begin at minus infinity and the last one end at infinity.
+CONDYLE_API condyle_status condyle_joint_contact_slide(const condyle_joint_contact* contact,
+                                                       const condyle_pose* X_FM, const double direction[3],
+                                                       condyle_slide_limit* negative,
+                                                       condyle_slide_limit* positive,
+                                                       condyle_free_results* results);
+
+/// Ascending; CONDYLE_BAD_ARGUMENT before the first answer.
+CONDYLE_API condyle_status condyle_free_results_intervals(const condyle_free_results* results,
+                                                          const condyle_free_interval** intervals,
+                                                          size_t* interval_count);
 
 #ifdef __cplusplus
 }

@@ -368,7 +368,22 @@ TEST_F(CMemory, EveryAllocationOfARotationMayFail) {
             }),
             2);
   // The corner at (1, -10) meets x = 5: sqrt(101) sin(a + t) = 5 with tan(a) = 1 / 10.
-  EXPECT_NEAR(positive.turned_deg, (std::asin(5 / std::sqrt(101.0)) - std::atan(0.1)) * 180 / M_PI, 1e-9);
+  const double turned = (std::asin(5 / std::sqrt(101.0)) - std::atan(0.1)) * 180 / M_PI;
+  EXPECT_NEAR(positive.turned_deg, turned, 1e-9);
+  const auto both = made<HeldContact>(condyle_joint_contact_create, F.get(), M.get());
+  const auto results = made<HeldFree>(condyle_free_results_create);
+  EXPECT_GT(failures_until_success([&] {
+              return condyle_joint_contact_turn(both.get(), &pose, origin, z, &negative, &positive,
+                                                results.get());
+            }),
+            10);
+  EXPECT_NEAR(positive.turned_deg, turned, 1e-9);
+  const double x[] = {1, 0, 0};
+  condyle_slide_limit back, on;
+  EXPECT_GT(failures_until_success(
+                [&] { return condyle_joint_contact_slide(both.get(), &pose, x, &back, &on, results.get()); }),
+            10);
+  EXPECT_NEAR(on.moved_mm, 4, 1e-12);
 }
 
 }  // namespace

@@ -222,6 +222,44 @@ TEST(CErrors, ARotationHasAnAxisAndARange) {
   EXPECT_EQ(positive.reason, CONDYLE_CONTACT_AT_START);
 }
 
+TEST(CErrors, TurnsAndSlidesHaveADirectionAndResults) {
+  const TwoBoxes boxes;
+  const auto results = made<HeldFree>(condyle_free_results_create);
+  const double origin[] = {0, 0, 0}, z[] = {0, 0, 1};
+  condyle_rotation_limit turned;
+  condyle_slide_limit moved;
+  const condyle_free_interval* intervals;
+  std::size_t count;
+  const auto turn = [&](const double* axis, condyle_rotation_limit* positive, condyle_free_results* into) {
+    return condyle_joint_contact_turn(boxes.contact.get(), &identity, origin, axis, &turned, positive, into);
+  };
+  const auto slide = [&](const double* along, condyle_slide_limit* positive, condyle_free_results* into) {
+    return condyle_joint_contact_slide(boxes.contact.get(), &identity, along, &moved, positive, into);
+  };
+  EXPECT_FAILS(condyle_free_results_create(nullptr), CONDYLE_BAD_ARGUMENT, "results");
+  EXPECT_FAILS(condyle_free_results_intervals(results.get(), &intervals, &count), CONDYLE_BAD_ARGUMENT,
+               "no answer");
+  EXPECT_FAILS(turn(z, &turned, nullptr), CONDYLE_BAD_ARGUMENT, "results is a null pointer");
+  EXPECT_FAILS(turn(z, nullptr, results.get()), CONDYLE_BAD_ARGUMENT, "positive is a null pointer");
+  EXPECT_FAILS(turn(nullptr, &turned, results.get()), CONDYLE_BAD_ARGUMENT, "axis_direction");
+  EXPECT_FAILS(turn(origin, &turned, results.get()), CONDYLE_BAD_ARGUMENT, "axis: a direction is finite");
+  EXPECT_FAILS(slide(z, &moved, nullptr), CONDYLE_BAD_ARGUMENT, "results is a null pointer");
+  EXPECT_FAILS(slide(z, nullptr, results.get()), CONDYLE_BAD_ARGUMENT, "positive is a null pointer");
+  EXPECT_FAILS(slide(origin, &moved, results.get()), CONDYLE_BAD_ARGUMENT, "along: a direction is finite");
+  const HeldMesh empty = c_mesh({});
+  const auto nothing = made<HeldContact>(condyle_joint_contact_create, boxes.fixed.get(), empty.get());
+  EXPECT_FAILS(condyle_joint_contact_slide(nothing.get(), &identity, z, &moved, &moved, results.get()),
+               CONDYLE_BAD_MESH, "the mobile body has no triangle");
+  ASSERT_EQ(slide(z, &moved, results.get()), CONDYLE_OK) << condyle_last_error();
+  EXPECT_EQ(moved.reason, CONDYLE_CONTACT_AT_START);
+  EXPECT_FAILS(condyle_free_results_intervals(results.get(), nullptr, &count), CONDYLE_BAD_ARGUMENT,
+               "intervals");
+  ASSERT_EQ(slide(origin, &moved, results.get()), CONDYLE_BAD_ARGUMENT);
+  EXPECT_FAILS(condyle_free_results_intervals(results.get(), &intervals, &count), CONDYLE_BAD_ARGUMENT,
+               "no answer");
+  condyle_free_results_destroy(nullptr);
+}
+
 TEST(CErrors, EachThreadHasALineOfItsOwn) {
   EXPECT_EQ(condyle_mesh_create(nullptr, 1, nullptr, 0, nullptr), CONDYLE_BAD_ARGUMENT);
   const std::string here = condyle_last_error();

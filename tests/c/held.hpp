@@ -31,6 +31,7 @@ using HeldForceOptions = Held<condyle_force_options, condyle_force_options_destr
 using HeldForces = Held<condyle_force_results, condyle_force_results_destroy>;
 using HeldRamp = Held<condyle_ramp, condyle_ramp_destroy>;
 using HeldRotation = Held<condyle_first_contact, condyle_first_contact_destroy>;
+using HeldFree = Held<condyle_free_results, condyle_free_results_destroy>;
 
 inline constexpr int all_parts =
     CONDYLE_STIFFNESS | CONDYLE_VERTEX_FORCES | CONDYLE_VERTEX_STIFFNESS | CONDYLE_PATCHES;

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <thread>
+#include <vector>
 
 #include "c/held.hpp"
 #include "c/same_answers.hpp"
@@ -185,6 +187,89 @@ TEST(CInterface, TurnsAboutAnAxisUpToTheContactOfCpp) {
       expect_same(expected.positive, positive);
     }
   }
+}
+
+std::vector<condyle_free_interval> intervals_of(const HeldFree& results) {
+  const condyle_free_interval* first = nullptr;
+  std::size_t count = 0;
+  EXPECT_EQ(condyle_free_results_intervals(results.get(), &first, &count), CONDYLE_OK)
+      << condyle_last_error();
+  return array(first, count);
+}
+
+TEST(CInterface, FindsTheFreeTurnsOfCpp) {
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
+                                   c_mesh(hip().femur).get());
+  const auto results = made<HeldFree>(condyle_free_results_create);
+  const Vec3 point(1, 0.5, 0), direction(0.1, 0.2, 1);
+  condyle_rotation_limit negative, positive;
+  std::size_t free_at_start = 0, in_contact = 0;
+  for (const Pose& X : poses()) {
+    const condyle_pose pose = c_pose(X);
+    ASSERT_EQ(condyle_joint_contact_turn(c.get(), &pose, point.data(), direction.data(), &negative, &positive,
+                                         results.get()),
+              CONDYLE_OK)
+        << condyle_last_error();
+    const motion::FreeAngles expected = answer_turn(hip().hip_bone, hip().femur, {direction, point, X}).free;
+    expect_same(expected.from_start.negative, negative);
+    expect_same(expected.from_start.positive, positive);
+    ++(expected.from_start.free_at_start() ? free_at_start : in_contact);
+    const auto intervals = intervals_of(results);
+    ASSERT_EQ(intervals.size(), expected.intervals.size());
+    for (std::size_t i = 0; i < intervals.size(); ++i) {
+      EXPECT_EQ(intervals[i].low, expected.intervals[i].low.degrees());
+      EXPECT_EQ(intervals[i].high, expected.intervals[i].high.degrees());
+      EXPECT_EQ(intervals[i].low_error_bound, expected.intervals[i].at_low.error_bound.degrees());
+      EXPECT_EQ(intervals[i].high_error_bound, expected.intervals[i].at_high.error_bound.degrees());
+    }
+  }
+  EXPECT_GT(free_at_start, 0u);
+  EXPECT_GT(in_contact, 0u);
+}
+
+TEST(CInterface, SlidesABoxBetweenTwoWallsFromOneToTheOther) {
+  const TriMesh walls = joined(box({-10, -5, -5}, {-8, 5, 5}), box({7, -5, -5}, {10, 5, 5}));
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(walls).get(),
+                                   c_mesh(box({-1, -1, -1}, {1, 1, 1})).get());
+  const auto results = made<HeldFree>(condyle_free_results_create);
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  // Twice as long and the other way round: lengths are mm along the direction all the same.
+  const double direction[] = {-2, 0, 0};
+  condyle_slide_limit negative, positive;
+  const auto slide_from = [&](const Vec3& place) {
+    condyle_pose pose = c_pose(rotated(0, {0, 0, 1}, place));
+    EXPECT_EQ(condyle_joint_contact_slide(c.get(), &pose, direction, &negative, &positive, results.get()),
+              CONDYLE_OK)
+        << condyle_last_error();
+  };
+  slide_from({0, 0, 0});
+  EXPECT_NEAR(negative.moved_mm, -6, 1e-12);
+  EXPECT_NEAR(positive.moved_mm, 7, 1e-12);
+  EXPECT_LT(positive.error_bound_mm, 1e-12);
+  EXPECT_EQ(positive.reason, CONDYLE_CONTACT);
+  ASSERT_EQ(positive.has_witness, 1);
+  EXPECT_NEAR(positive.fixed_point_mm[0], -8, 1e-12);
+  EXPECT_NEAR(positive.mobile_point_mm[0], -1, 1e-12);
+  EXPECT_LT(positive.fixed_triangle, 24u);
+  EXPECT_LT(positive.mobile_triangle, 12u);
+  // From the first wall on, between them, and from the second one on.
+  const auto intervals = intervals_of(results);
+  ASSERT_EQ(intervals.size(), 3u);
+  EXPECT_EQ(intervals[0].low, -endless);
+  EXPECT_NEAR(intervals[0].high, -11, 1e-12);
+  EXPECT_NEAR(intervals[1].low, -6, 1e-12);
+  EXPECT_NEAR(intervals[1].high, 7, 1e-12);
+  EXPECT_NEAR(intervals[2].low, 11, 1e-12);
+  EXPECT_EQ(intervals[2].high, endless);
+  slide_from({8, 0, 0});
+  EXPECT_EQ(negative.reason, CONDYLE_CONTACT_AT_START);
+  EXPECT_EQ(negative.moved_mm, 0);
+  EXPECT_EQ(positive.has_witness, 0);
+  slide_from({0, 20, 0});
+  EXPECT_EQ(negative.reason, CONDYLE_END_OF_RANGE);
+  EXPECT_EQ(negative.moved_mm, -endless);
+  EXPECT_EQ(positive.moved_mm, endless);
+  EXPECT_EQ(intervals_of(results).size(), 1u);
 }
 
 TEST(CInterface, AnswersManyThreadsOfOneObjectAsOne) {

@@ -45,6 +45,25 @@ SomeMoved some_moved(const Points& first, double phase) {
   return some;
 }
 
+TEST(CUpdate, TurnsAndSlidesAreThoseOfTheBodyAsItIsNow) {
+  const TriMesh small = box({-1, -1, -1}, {1, 1, 1}), large = box({-2, -2, -2}, {2, 2, 2});
+  const auto contact = made<HeldContact>(condyle_joint_contact_create,
+                                         c_mesh(box({5, -9, -9}, {6, 9, 9})).get(), c_mesh(small).get());
+  const auto results = made<HeldFree>(condyle_free_results_create);
+  const condyle_pose pose = c_pose(Pose::Identity());
+  const double x[] = {1, 0, 0};
+  condyle_slide_limit back, on;
+  const auto moved = [&] {
+    EXPECT_EQ(condyle_joint_contact_slide(contact.get(), &pose, x, &back, &on, results.get()), CONDYLE_OK);
+    return on.moved_mm;
+  };
+  EXPECT_NEAR(moved(), 4, 1e-12);
+  const std::vector<double> xyz = c_points(large.vertices);
+  ASSERT_EQ(condyle_joint_contact_update(contact.get(), CONDYLE_MOBILE, xyz.data(), xyz.size() / 3),
+            CONDYLE_OK);
+  EXPECT_NEAR(moved(), 3, 1e-12);
+}
+
 TEST(CUpdate, AJointContactFollowsItsBodiesAsThatOfCppDoes) {
   contact::JointContact cpp(hip().hip_bone, hip().femur);
   const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
