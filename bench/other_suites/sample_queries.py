@@ -14,7 +14,7 @@ import math
 import sys
 from fractions import Fraction
 from pathlib import Path
-from typing import Iterator, List, Tuple
+from typing import Iterator, List, Optional, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "rotation_queries"))
 
@@ -53,30 +53,42 @@ def queries_of(path: Path) -> Iterator[Tuple[List[tuple], int]]:
         raise ValueError(f"{path}: ends within a query")
 
 
-def main(folder: Path, out: "Path | None") -> int:
-    total = rest = translations = contacts = differ = 0
-    written: List[str] = []
+def rigid_queries(folder: Path) -> Iterator[Optional[tuple]]:
+    """Of each query that is rigid its name, type, points at the start, the way of the first feature seen from the second
+    one, and the file's answer; of each other one nothing.
+    """
     for path in sorted(folder.glob("*/*/*.csv")):
         type_ = EDGE_EDGE if path.parent.name == "edge-edge" else VERTEX_FACE
         first = 2 if type_ == EDGE_EDGE else 1
         for number, (points, answer) in enumerate(queries_of(path)):
-            total += 1
             ways = [minus(points[i + 4], points[i]) for i in range(4)]
             if len(set(ways[:first])) > 1 or len(set(ways[first:])) > 1:
-                continue
-            way = minus(ways[0], ways[first])
-            if any(way):
-                translations += 1
+                yield None
             else:
-                rest += 1
-            meets = Translation(type_, points[:4], way).holds_contact()
-            contacts += meets
-            if meets != (answer == 1):
-                differ += 1
-                print(f"{path.relative_to(folder)}, query {number}: the file says {answer}")
-            for p in (*points[:4], way):
-                row = [part for x in p for part in (x.numerator, x.denominator)]
-                written.append(",".join(map(str, [*row, int(meets)])))
+                name = f"{path.relative_to(folder)}, query {number}"
+                yield name, type_, points[:4], minus(ways[0], ways[first]), answer == 1
+
+
+def main(folder: Path, out: "Path | None") -> int:
+    total = rest = translations = contacts = differ = 0
+    written: List[str] = []
+    for query in rigid_queries(folder):
+        total += 1
+        if not query:
+            continue
+        name, type_, points, way, answer = query
+        if any(way):
+            translations += 1
+        else:
+            rest += 1
+        meets = Translation(type_, points, way).holds_contact()
+        contacts += meets
+        if meets != answer:
+            differ += 1
+            print(f"{name}: the file says {int(answer)}")
+        for p in (*points, way):
+            row = [part for x in p for part in (x.numerator, x.denominator)]
+            written.append(",".join(map(str, [*row, int(meets)])))
     if not total:
         sys.exit(f"sample_queries.py: no queries in {folder}")
     print(f"{total} queries: {translations} translations, {rest} at rest, {total - translations - rest} that deform")

@@ -1,7 +1,10 @@
 """Two meshes without a joint."""
 
+import importlib
 import itertools
 import re
+import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -111,3 +114,35 @@ def test_the_lines_of_the_page_for_others_run(source):
         if "vtkmodules" in block:
             pytest.importorskip("vtkmodules")
         exec(compile(block, "coming-from.md", "exec"), {})
+
+
+FACE = [(0, 0, 0), (2, 0, 0), (0, 2, 0)]
+EDGE = [(-1, 0, 0), (1, 0, 0)]
+BESIDE = 1e-12
+
+
+@pytest.mark.parametrize("kind, points, way, meets", [
+    (0, [(0.5, 0.5, 1), *FACE], (0, 0, -1), True),
+    (0, [(0.5, 0.5, 1), *FACE], (0, 0, -1 + BESIDE), False),  # ends before it
+    (0, [(1, 1, 1), *FACE], (0, 0, -1), True),  # on the long side
+    (0, [(1, 1 + BESIDE, 1), *FACE], (0, 0, -1), False),
+    (0, [(0.5, 0.5, 1), *FACE], (0.5, 0.5 - BESIDE, -1), True),  # beside it, from a side
+    (0, [(0.5, 0.5, 1), *FACE], (0.5, 0.5 + BESIDE, -1), False),
+    (0, [(3, 0.5, 0), *FACE], (-2, 0, 0), True),  # in the plane of the face
+    (0, [(3, 0.5, BESIDE), *FACE], (-2, 0, 0), False),
+    (0, [(1, 1, 0), *FACE], (0, 0, 0), True),  # at rest
+    (0, [(1, 1 + BESIDE, 0), *FACE], (0, 0, 0), False),
+    (1, [(0, -1, 1), (0, 1, 1), *EDGE], (1 - BESIDE, 0, -1), True),
+    (1, [(0, -1, 1), (0, 1, 1), *EDGE], (1 + BESIDE, 0, -1), False),
+    (1, [(0, 0, 1), (3, 0, 1), *EDGE], (1, 0, -1), True),  # parallel
+    (1, [(0, 0, 1), (3, 0, 1), *EDGE], (1 + BESIDE, 0, -1), False),
+    (1, [(2, 0, 0), (3, 0, 0), *EDGE], (-1, 0, 0), True),  # along each other
+    (1, [(2, BESIDE, 0), (3, BESIDE, 0), *EDGE], (-1, 0, 0), False),
+])
+def test_slides_answer_queries_of_vertices_and_edges(source, monkeypatch, kind, points, way, meets):
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    monkeypatch.syspath_prepend(source / "bench/other_suites")
+    queries = importlib.import_module("slide_queries")
+    exact = [tuple(Fraction(x) for x in p) for p in [*points, way]]
+    assert queries.Translation(kind, exact[:4], exact[4]).holds_contact() == meets
+    assert queries.meet(kind, exact[:4], exact[4]) == meets
