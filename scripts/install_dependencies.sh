@@ -24,6 +24,7 @@ packages=(
 tests=(
   libgtest-dev librapidcheck-dev libcgal-dev         # CGAL is an oracle there, and a peer
   libvtk9-dev                                        # the reader of what is written, and a peer
+  libfcl-dev libbullet-dev                           # whose meshes docs/coming-from.md takes, and peers
   valgrind                                           # for leaks of programs that use the C interface
   pybind11-dev python3-dev python3-numpy             # the Python module
   python3-pytest python3-hypothesis mypy             # its tests
@@ -37,8 +38,8 @@ for group in "$@"; do
     command) ;;
     clang) packages+=(clang libclang-rt-14-dev clang-format llvm-14) ;;
     bench)
-      # Peers; CGAL and VTK are above.
-      packages+=(libfcl-dev libembree-dev libopenvdb-dev libbullet-dev libode-dev libsimbody-dev)
+      # Peers; CGAL, VTK, FCL and Bullet are above.
+      packages+=(libembree-dev libopenvdb-dev libode-dev libsimbody-dev)
       packages+=(python3 git)
       ;;
     docs) packages+=(doxygen) ;;
