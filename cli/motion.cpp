@@ -72,8 +72,10 @@ io::LoadedJoint joint_or_model(const MotionArguments& options) {
 void motion_command(const MotionArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(joint_or_model(options), options.parameters);
-  io::JointMotion motion = io::motion_of(loaded, io::read_motion_table(options.motion));
+  const io::MotionTable table = io::read_motion_table(options.motion);
+  io::JointMotion motion = io::motion_of(loaded, table);
   MotionRequest request = request_of(options, loaded.joint, motion);
+  if (has_damping(loaded.joint.ligaments)) request.motions = io::recorded_speeds(loaded, table);
   check_motion_request(request);
   for (const std::string& remark : motion.processing) note(remark);
   const bool with_pressure = options.with_pressure || request.has_load();

@@ -282,6 +282,7 @@ struct Ligament {
   double stiffness_n =
       0;  ///< k, the slope of tension over strain once all fibres carry; 0: it has no tension
   double transition_strain = 0.06;  ///< above which they do, 0 or more
+  double damping_n_s = 0;           ///< force over the rate of strain, 0 or more: damping_n()
   double slack_sigma_mm = 0;        ///< standard deviation of the slack length, for bands
   double point_sigma_mm = 0;        ///< and of each of its points along each axis of their bodies
   /// Above 0: a motion ends where the strain reaches this.
@@ -314,14 +315,44 @@ struct LigamentState {
 [[nodiscard]] std::optional<Eigen::Matrix<double, 6, 6>> ligament_stiffness(const Ligament& ligament,
                                                                             const Pose& X_FM) noexcept;
 
+/// How fast it becomes longer while the mobile body moves so. Closed form: its path is the shortest, so that moving the place where it leaves a wrap
+/// changes no length. Empty as ligament_state(). No allocation.
+[[nodiscard]] std::optional<double> lengthening_mm_s(const Ligament& ligament, const Pose& X_FM,
+                                                     const RelativeMotion& motion) noexcept;
+
+/// The force that damping adds to the tension, as OpenSim's Blankevoort1991Ligament has it: damping_n_s times the rate of strain, only while it is
+/// taut and becomes longer, and for strains e below 0.01 less, by the smooth step 10 x^3 - 15 x^4 + 6 x^5 of x = e / 0.01.
+[[nodiscard]] double damping_n(const Ligament& ligament, double strain, double strain_rate_per_s) noexcept;
+
+/// Whether any of them has damping.
+[[nodiscard]] bool has_damping(const std::vector<Ligament>& ligaments) noexcept;
+
+/// What a ligament that moves has beside its state.
+struct LigamentDamping {
+  double lengthening_mm_s = 0, damping_n = 0;
+  double total_n = 0;  ///< tension and damping
+};
+
 /// A ligament in every frame; empty for gaps, and where its length is not known.
 struct LigamentAlong {
   std::string name;
   double slack_length_mm = 0;
   std::vector<std::optional<LigamentState>> frames = {};
+  /// With motions: empty too where a frame has none. Else no entries.
+  std::vector<std::optional<LigamentDamping>> damping = {};
 };
-[[nodiscard]] std::vector<LigamentAlong> ligaments_along(const std::vector<Ligament>& ligaments,
-                                                         const std::vector<std::optional<Pose>>& X_FM);
+/// `motions` are one per pose, or none.
+[[nodiscard]] std::vector<LigamentAlong> ligaments_along(
+    const std::vector<Ligament>& ligaments, const std::vector<std::optional<Pose>>& X_FM,
+    const std::vector<std::optional<RelativeMotion>>& motions = {});
+
+/// How the mobile body moves in each frame, from the poses at these times alone: by the parabola through a frame and those before and after it, at the
+/// ends of a run of frames without a gap that through three of its frames; of two frames by the line through them. Of a rotation these are of rotation
+/// vectors from the frame, so that a steady turn is exact. Empty for gaps and for a frame by itself.
+///
+/// One time per pose, which increase.
+[[nodiscard]] std::vector<std::optional<RelativeMotion>> motions_along(
+    const std::vector<std::optional<Pose>>& X_FM, const std::vector<double>& time_s);
 
 /// Two bodies and how one rotates in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
 /// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh

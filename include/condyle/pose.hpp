@@ -85,6 +85,12 @@ using Pose = Eigen::Isometry3d;
   return out;
 }
 
+/// How the mobile body moves relative to the fixed one, in F.
+struct RelativeMotion {
+  Vec3 velocity_mm_s = Vec3::Zero();  ///< of the origin of M
+  Vec3 angular_velocity_rad_s = Vec3::Zero();
+};
+
 /// Many points moved by a pose; out may hold any size before.
 void posed(const Pose& X, PointsView points, Points& out);
 [[nodiscard]] Points posed(const Pose& X, PointsView points);

@@ -85,12 +85,6 @@ struct ElasticContactResults {
 //       step(forces.on_mobile_body, forces.stiffness);
 //     }
 
-/// How the mobile body moves relative to the fixed one, in F.
-struct RelativeMotion {
-  Vec3 velocity_mm_s = Vec3::Zero();  ///< of the origin of M
-  Vec3 angular_velocity_rad_s = Vec3::Zero();
-};
-
 struct ForceOptions {
   RelativeMotion motion = {};
   /// Coefficient of friction mu, >= 0. The traction is mu p v / sqrt(v^2 + s^2) against the sliding velocity v, which is across the

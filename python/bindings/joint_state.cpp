@@ -66,10 +66,7 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, PartParameter, io::ContactEntry, io::ColumnOfCoordinate>) {
     auto& [a, b, c, d, e, f, g, h, i] = value;
     each(a, b, c, d, e, f, g, h, i);
-  } else if constexpr (is_one_of<Struct, Ligament>) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = value;
-    each(a, b, c, d, e, f, g, h, i, j);
-  } else if constexpr (is_one_of<Struct, JointPlacement>) {
+  } else if constexpr (is_one_of<Struct, Ligament, JointPlacement>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = value;
     each(a, b, c, d, e, f, g, h, i, j, k);
   } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {

@@ -1,16 +1,21 @@
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <limits>
+#include <type_traits>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
+#include "condyle/error.hpp"
 #include "joint.hpp"
 
 /// Ligaments of a joint, and what they have in poses.
 
 namespace condyle::python {
 namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 py::array rows_of(const std::vector<Vec3>& points) {
   Points all;
@@ -46,6 +51,7 @@ py::list ligaments_of(const JointHandle& handle) {
     dict["point_sigma_mm"] = ligament.point_sigma_mm;
     dict["stiffness_n"] = ligament.stiffness_n;
     dict["transition_strain"] = ligament.transition_strain;
+    dict["damping_n_s"] = ligament.damping_n_s;
     dict["ends_at_strain"] = ligament.ends_at_strain;
     dict["wrap"] = wrap_dict(ligament.wrap);
     list.append(dict);
@@ -53,29 +59,61 @@ py::list ligaments_of(const JointHandle& handle) {
   return list;
 }
 
-/// Per ligament, then per pose; NaN where a length is not known, and for gaps.
-py::dict states(const JointHandle& handle, const py::object& poses) {
+/// One motion for each pose, of (N, 3) velocities; those that have a NaN are not known.
+std::vector<std::optional<RelativeMotion>> velocities_in(const py::object& velocity,
+                                                         const py::object& angular_velocity,
+                                                         std::size_t count) {
+  const PointsIn v(velocity, "velocity_mm_s", NotFinite::leave),
+      w(angular_velocity, "angular_velocity_rad_s", NotFinite::leave);
+  if (v.size() != count || w.size() != count)
+    throw UsageError(fmt::format("velocity_mm_s, angular_velocity_rad_s: {} and {} for {} poses", v.size(),
+                                 w.size(), count));
+  std::vector<std::optional<RelativeMotion>> motions(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const RelativeMotion motion{v.view()[i], w.view()[i]};
+    if (motion.velocity_mm_s.allFinite() && motion.angular_velocity_rad_s.allFinite()) motions[i] = motion;
+  }
+  return motions;
+}
+
+/// Per ligament, then per pose; NaN where a length is not known, and for gaps. Damping with the velocities of the mobile body, or with times;
+/// both may be None.
+py::dict states(const JointHandle& handle, const py::object& poses, const py::object& time,
+                const py::object& velocity, const py::object& angular_velocity) {
   const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
+  std::vector<std::optional<RelativeMotion>> motions;
+  if (!velocity.is_none()) motions = velocities_in(velocity, angular_velocity, X_FM.size());
+  if (!time.is_none()) {
+    const std::vector<double> time_s = doubles_in(time, "time_s");
+    if (time_s.size() != X_FM.size())
+      throw UsageError(fmt::format("time_s: {} for {} poses", time_s.size(), X_FM.size()));
+    for (std::size_t i = 1; i < time_s.size(); ++i)
+      if (!(time_s[i] > time_s[i - 1])) throw UsageError("time_s: must increase");
+    motions = motions_along(X_FM, time_s);
+  }
   const std::vector<LigamentAlong> along =
-      without_lock([&] { return ligaments_along(handle.joint().ligaments, X_FM); });
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> length, strain, tension, force, moment;
-  for (const LigamentAlong& ligament : along)
-    for (const auto& at : ligament.frames) {
-      length.push_back(at ? at->length_mm : nothing);
-      strain.push_back(at ? at->strain : nothing);
-      tension.push_back(at ? at->tension_n : nothing);
-      for (int axis = 0; axis < 3; ++axis) {
-        force.push_back(at ? at->force_n[axis] : nothing);
-        moment.push_back(at ? at->moment_nmm[axis] : nothing);
-      }
-    }
+      without_lock([&] { return ligaments_along(handle.joint().ligaments, X_FM, motions); });
   py::dict dict;
-  dict["length_mm"] = array_of(std::move(length));
-  dict["strain"] = array_of(std::move(strain));
-  dict["tension_n"] = array_of(std::move(tension));
-  dict["force_n"] = array_of(std::move(force));
-  dict["moment_nmm"] = array_of(std::move(moment));
+  const auto add = [&](const char* name, auto frames, auto member) {
+    std::vector<double> values;
+    for (const LigamentAlong& ligament : along)
+      for (const auto& at : ligament.*frames) {
+        if constexpr (std::is_same_v<decltype(member), Vec3 LigamentState::*>)
+          for (int axis = 0; axis < 3; ++axis) values.push_back(at ? ((*at).*member)[axis] : nothing);
+        else
+          values.push_back(at ? (*at).*member : nothing);
+      }
+    dict[name] = array_of(std::move(values));
+  };
+  add("length_mm", &LigamentAlong::frames, &LigamentState::length_mm);
+  add("strain", &LigamentAlong::frames, &LigamentState::strain);
+  add("tension_n", &LigamentAlong::frames, &LigamentState::tension_n);
+  add("force_n", &LigamentAlong::frames, &LigamentState::force_n);
+  add("moment_nmm", &LigamentAlong::frames, &LigamentState::moment_nmm);
+  if (motions.empty()) return dict;
+  add("lengthening_mm_s", &LigamentAlong::damping, &LigamentDamping::lengthening_mm_s);
+  add("damping_n", &LigamentAlong::damping, &LigamentDamping::damping_n);
+  add("total_n", &LigamentAlong::damping, &LigamentDamping::total_n);
   return dict;
 }
 
@@ -87,7 +125,7 @@ py::array stiffness_of(const JointHandle& handle, const py::object& poses) {
   for (const Ligament& ligament : handle.joint().ligaments)
     for (const std::optional<Pose>& X : X_FM) {
       const auto known = X ? ligament_stiffness(ligament, *X) : std::nullopt;
-      const Rows rows = known ? Rows(*known) : Rows::Constant(std::numeric_limits<double>::quiet_NaN());
+      const Rows rows = known ? Rows(*known) : Rows::Constant(nothing);
       values.insert(values.end(), rows.data(), rows.data() + rows.size());
     }
   return array_of(std::move(values));

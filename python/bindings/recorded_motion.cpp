@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <limits>
+#include <utility>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -28,10 +29,19 @@ py::dict table_of(const std::filesystem::path& path) {
   return dict;
 }
 
-/// Times and (N, 4, 4) poses, NaN for gaps.
+/// Times and (N, 4, 4) poses, NaN for gaps; velocities (N, 3) if the file has speeds, else None.
 py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& path) {
-  io::JointMotion motion =
-      without_lock([&] { return io::motion_of(handle.loaded, io::read_motion_table(path)); });
+  auto [motion, speeds] = without_lock([&] {
+    const io::MotionTable table = io::read_motion_table(path);
+    return std::pair(io::motion_of(handle.loaded, table), io::recorded_speeds(handle.loaded, table));
+  });
+  const auto velocity = [&speeds = speeds](Vec3 RelativeMotion::*member) -> py::object {
+    if (speeds.empty()) return py::none();
+    Points points;
+    for (const auto& at : speeds)
+      points.push_back(at ? (*at).*member : Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    return array_of(points);
+  };
   const auto count = static_cast<py::ssize_t>(motion.X_FM.size());
   py::array_t<double> poses({count, py::ssize_t{4}, py::ssize_t{4}});
   auto values = poses.mutable_unchecked<3>();
@@ -45,6 +55,8 @@ py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& 
   dict["in_seconds"] = motion.times.in_seconds;
   dict["time"] = array_of(std::move(motion.times.values));
   dict["X_FM"] = poses;
+  dict["velocity_mm_s"] = velocity(&RelativeMotion::velocity_mm_s);
+  dict["angular_velocity_rad_s"] = velocity(&RelativeMotion::angular_velocity_rad_s);
   dict["processing"] = motion.processing;
   dict["notes"] = notes_of(motion.notes);
   return dict;

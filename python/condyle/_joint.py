@@ -397,17 +397,28 @@ class Joint(DescribedJoint):
         """
         return contact_along(self, poses, surfaces, casting, rule, reach_mm, progress)
 
-    def ligament_states(self, poses: PoseLike) -> LigamentStates:
+    def ligament_states(self, poses: PoseLike, *, time_s: Optional[ArrayLike] = None,
+                        velocity_mm_s: Optional[ArrayLike] = None,
+                        angular_velocity_rad_s: Optional[ArrayLike] = None) -> LigamentStates:
         """Length, strain, tension and load of each ligament in one pose or many; poses of NaN are gaps.
 
-        C++: `condyle::ligament_state` in condyle/joint.hpp.
+        Parameters
+        ----------
+        velocity_mm_s, angular_velocity_rad_s : (..., 3), optional
+            Of the mobile body's origin, and its turn, in the fixed body's frame, in each pose: for damping, as
+            :meth:`motion` has them of files with speeds. NaN where they are not known.
+        time_s : (N,), optional
+            In place of these: the poses are those of a motion at these times, whose velocities are those of the
+            parabolas through three of them each.
+
+        C++: `condyle::ligaments_along` in condyle/joint.hpp.
 
         >>> import condyle
         >>> bones = condyle.sample_hip()
         >>> condyle.Joint(bones.hip_bone, bones.femur).ligament_states({"flexion_deg": 90}).names
         ()
         """
-        return ligament_states(*self._asked_at(poses))
+        return ligament_states(*self._asked_at(poses), time_s, velocity_mm_s, angular_velocity_rad_s)
 
     def ligament_stiffness(self, poses: PoseLike) -> NDArray[np.float64]:
         """Minus the derivative of each ligament's wrench on the mobile body, (L, ..., 6, 6), about the origin of M.
@@ -430,7 +441,7 @@ class Joint(DescribedJoint):
 
         FileError for columns that are not there or whose unit is not known.
 
-        C++: `condyle::motion_of` in condyle/io/joint_file.hpp.
+        C++: `condyle::motion_of` and `recorded_speeds` in condyle/io/joint_file.hpp.
         """
         found = _native.motion_of(self._native, path_of(path))
         found["processing"] = tuple(found["processing"])

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._errors import UsageError
 from ._native import Joint as NativeJoint
 from ._words import Body, WrapShape
 
@@ -61,6 +62,8 @@ class Ligament:
         N per unit of strain; 0 if it has no tension.
     transition_strain : float
         Above which its tension grows linearly.
+    damping_n_s : float
+        Force over the rate of strain while it becomes longer; 0 if it has no damping.
     ends_at_strain : float or None
         The strain that ends a motion.
     wrap : LigamentWrap or None
@@ -74,6 +77,7 @@ class Ligament:
     point_sigma_mm: float
     stiffness_n: float
     transition_strain: float
+    damping_n_s: float
     ends_at_strain: Optional[float]
     wrap: Optional[LigamentWrap]
 
@@ -93,7 +97,10 @@ class LigamentStates:
     length_mm, strain, tension_n : (L, ...) float64
         Strain is (length - slack length) / slack length, negative while it is slack.
     force_n, moment_nmm : (L, ..., 3) float64
-        On the mobile body, in F; the moment about the joint centre. The fixed body has the opposite.
+        Of the tension on the mobile body, in F; the moment about the joint centre. The fixed body has the opposite.
+    lengthening_mm_s, damping_n, total_n : (L, ...) float64 or None
+        How fast it becomes longer, the force of its damping, and tension and damping; None if neither velocities nor
+        times were given.
     """
 
     names: tuple[str, ...]
@@ -102,6 +109,9 @@ class LigamentStates:
     tension_n: NDArray[np.float64]
     force_n: NDArray[np.float64]
     moment_nmm: NDArray[np.float64]
+    lengthening_mm_s: Optional[NDArray[np.float64]] = None
+    damping_n: Optional[NDArray[np.float64]] = None
+    total_n: Optional[NDArray[np.float64]] = None
 
     def __repr__(self) -> str:
         return f"LigamentStates({len(self.names)} ligaments, {self.length_mm.shape[1:]} poses)"
@@ -116,10 +126,22 @@ def ligaments_of(native: NativeJoint) -> tuple[Ligament, ...]:
     return tuple(_ligament_of(each) for each in _native.ligaments_of(native))
 
 
-def ligament_states(native: NativeJoint, poses: ArrayLike) -> LigamentStates:
+def ligament_states(native: NativeJoint, poses: ArrayLike, time_s: Optional[ArrayLike],
+                    velocity_mm_s: Optional[ArrayLike], angular_velocity_rad_s: Optional[ArrayLike]) -> LigamentStates:
+    if (velocity_mm_s is None) != (angular_velocity_rad_s is None):
+        raise UsageError("velocity_mm_s: velocity_mm_s and angular_velocity_rad_s are given together")
+    if time_s is not None and velocity_mm_s is not None:
+        raise UsageError("time_s: give times or velocities, not both")
+    of_poses = np.shape(poses)[:-2]
+    for name, velocity in (("velocity_mm_s", velocity_mm_s), ("angular_velocity_rad_s", angular_velocity_rad_s)):
+        if velocity is not None and np.shape(velocity) != (*of_poses, 3):
+            raise UsageError(f"{name}: must have the shape {(*of_poses, 3)}, not {np.shape(velocity)}")
+    if velocity_mm_s is not None and angular_velocity_rad_s is not None:
+        velocity_mm_s = np.reshape(velocity_mm_s, (-1, 3))
+        angular_velocity_rad_s = np.reshape(angular_velocity_rad_s, (-1, 3))
     names = tuple(each["name"] for each in _native.ligaments_of(native))
-    shape = (len(names), *np.shape(poses)[:-2])
-    arrays = _native.ligament_states(native, poses)
+    shape = (len(names), *of_poses)
+    arrays = _native.ligament_states(native, poses, time_s, velocity_mm_s, angular_velocity_rad_s)
     return LigamentStates(names, **{key: array.reshape((*shape, 3) if key in ("force_n", "moment_nmm") else shape)
                                     for key, array in arrays.items()})
 

@@ -52,7 +52,9 @@ class JointMotion:
     """A recorded motion of a joint: `time` (N,), in seconds where `in_seconds`, else numbers of frames.
 
     `X_FM` (N, 4, 4) poses in the joint frame, mm, NaN for gaps; `is_gap` (N,) bool; `notes` what looks wrong with its
-    numbers: their unit.
+    numbers: their unit. `velocity_mm_s` and `angular_velocity_rad_s` (N, 3) of the mobile body's origin and of its
+    turn, in the fixed body's frame, if the file has columns of speeds beside those of values, as states of OpenSim;
+    NaN where they are not known; else None.
     """
 
     time: NDArray[np.float64]
@@ -60,6 +62,8 @@ class JointMotion:
     in_seconds: bool
     processing: tuple[str, ...]
     notes: tuple[ContactNote, ...] = ()
+    velocity_mm_s: Optional[NDArray[np.float64]] = None
+    angular_velocity_rad_s: Optional[NDArray[np.float64]] = None
 
     @property
     def is_gap(self) -> NDArray[np.bool_]:

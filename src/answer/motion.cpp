@@ -120,6 +120,32 @@ std::optional<motion::ContactNote> unknown_lengths(const std::vector<LigamentAlo
                                  names};
 }
 
+/// Whether each frame that has a pose has a recorded motion, which a load would have made another.
+bool are_recorded(const MotionRequest& request) {
+  if (request.motions.empty() || request.has_load()) return false;
+  for (std::size_t i = 0; i < request.X_FM.size(); ++i)
+    if (request.X_FM[i] && !request.motions[i]) return false;
+  return true;
+}
+
+SpeedsFrom speeds_from(const MotionRequest& request) {
+  if (!has_damping(request.ligaments)) return SpeedsFrom::none;
+  if (are_recorded(request)) return SpeedsFrom::recorded;
+  return request.time_s.empty() ? SpeedsFrom::none : SpeedsFrom::frames;
+}
+
+std::vector<LigamentAlong> ligaments_of(const MotionRequest& request, SpeedsFrom from, const Frames& X_FM) {
+  switch (from) {
+    case SpeedsFrom::none:
+      break;
+    case SpeedsFrom::recorded:
+      return ligaments_along(request.ligaments, X_FM, request.motions);
+    case SpeedsFrom::frames:
+      return ligaments_along(request.ligaments, X_FM, motions_along(X_FM, request.time_s));
+  }
+  return ligaments_along(request.ligaments, X_FM);
+}
+
 void require_count(const char* what, std::size_t count, std::size_t frames) {
   if (count > 0 && count != frames)
     throw UsageError(core::formatted("%s: %zu for %zu frames", what, count, frames));
@@ -127,9 +153,15 @@ void require_count(const char* what, std::size_t count, std::size_t frames) {
 
 }  // namespace
 
+std::string_view name_of(SpeedsFrom from) noexcept {
+  constexpr std::string_view names[] = {"none", "recorded", "frames"};
+  return names[static_cast<std::size_t>(from)];
+}
+
 void check_motion_request(const MotionRequest& request) {
   require_count("times", request.time_s.size(), request.X_FM.size());
   require_count("loads", request.loads.size(), request.X_FM.size());
+  require_count("motions", request.motions.size(), request.X_FM.size());
   if (request.load && !request.loads.empty())
     throw UsageError("loads: one for all frames, or one for each, not both");
   for (const std::optional<contact::Load>& load : request.loads)
@@ -177,7 +209,8 @@ std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
   motion::add_new(answer.notes, motion::check_motion(answer.frames, request.names));
-  answer.ligaments = ligaments_along(request.ligaments, X_FM);
+  answer.speeds_from = speeds_from(request);
+  answer.ligaments = ligaments_of(request, answer.speeds_from, X_FM);
   if (const auto unknown = unknown_lengths(answer.ligaments, X_FM)) answer.notes.push_back(*unknown);
   if (layers)
     if (const auto largest = frame_of_largest_force(answer))

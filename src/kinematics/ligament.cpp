@@ -254,16 +254,4 @@ std::optional<Eigen::Matrix<double, 6, 6>> ligament_stiffness(const Ligament& li
   return stiffness;
 }
 
-std::vector<LigamentAlong> ligaments_along(const std::vector<Ligament>& ligaments,
-                                           const std::vector<std::optional<Pose>>& X_FM) {
-  std::vector<LigamentAlong> all;
-  for (const Ligament& ligament : ligaments) {
-    LigamentAlong& along = all.emplace_back(LigamentAlong{ligament.name, ligament.slack_length_mm});
-    along.frames.reserve(X_FM.size());
-    for (const std::optional<Pose>& X : X_FM)
-      along.frames.push_back(X ? ligament_state(ligament, *X) : std::nullopt);
-  }
-  return all;
-}
-
 }  // namespace condyle

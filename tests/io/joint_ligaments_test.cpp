@@ -166,6 +166,8 @@ TEST_F(JointLigaments, ThatNobodyCanMeanAreRefusedInOneLine) {
   expect_refused(a + "mobile = []\nslack_length = 3\n", "three numbers");
   expect_refused(b + b, "is given twice");
   expect_refused(b + "stiffness_n = -3\n", "must be above 0");
+  expect_refused(b + "damping_n_s = -1\n", "ligament[0].damping_n_s: must be 0 or more");
+  expect_refused(b + "transition_strain = -0.1\n", "must be 0 or more");
   expect_refused(b + "ends_at_strain = 0\n", "must be above 0");
   expect_refused(b + "wrap = \"neck\"\n", "head");
   expect_refused(b + "wrap = \"head\"\n", "no head is known here");

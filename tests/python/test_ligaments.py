@@ -136,6 +136,82 @@ def test_the_command_writes_the_same_states_along_a_motion(joint, file, command,
     assert said["ligaments"][1]["largest_tension_n"]["value"] == states.tension_n[1].max()
 
 
+DAMPED = STRINGS + "damping_n_s = 40\n"
+
+
+def test_damping_follows_from_strain_and_speed(file):
+    joint = condyle.read_joint(with_strings(file, DAMPED))
+    front, back = joint.ligaments
+    assert (front.damping_n_s, back.damping_n_s) == (0, 40)
+    poses = joint.pose(flexion_deg=[0, 20, 40], abduction_deg=10)
+    still = joint.ligament_states(poses)
+    assert still.damping_n is still.total_n is still.lengthening_mm_s is None
+    v, w = np.array([[3, -20, 5.0], [np.nan, 0, 0], [0, 30, 80]]), np.array([[0, 0.1, -0.5]] * 3)
+    states = joint.ligament_states(poses, velocity_mm_s=v, angular_velocity_rad_s=w)
+    assert states.damping_n.shape == (2, 3) and np.isnan(states.total_n[:, 1]).all()
+    damped = 0
+    for k in (0, 2):
+        end = poses[k, :3, :3] @ back.mobile[0] + poses[k, :3, 3]
+        along = end - back.fixed[0]
+        speed = along @ (v[k] + np.cross(w[k], poses[k, :3, :3] @ back.mobile[0])) / np.linalg.norm(along)
+        assert states.lengthening_mm_s[1, k] == pytest.approx(speed, rel=1e-12)
+        x = min(states.strain[1, k] / 0.01, 1)
+        damping = 40 * speed / 50 * (10 * x**3 - 15 * x**4 + 6 * x**5) if x > 0 and speed > 0 else 0
+        assert states.damping_n[1, k] == pytest.approx(damping, rel=1e-12)
+        damped += damping > 0
+    assert damped and (states.damping_n[0, [0, 2]] == 0).all()
+    np.testing.assert_array_equal(states.total_n[:, [0, 2]], (states.tension_n + states.damping_n)[:, [0, 2]])
+    one = joint.ligament_states(poses[0], velocity_mm_s=v[0], angular_velocity_rad_s=w[0])
+    assert one.total_n.tolist() == states.total_n[:, 0].tolist()
+    for wrong in ({"velocity_mm_s": v}, {"velocity_mm_s": v[:2], "angular_velocity_rad_s": w}, {"time_s": [0, 1]}, {"time_s": [0, 2, 1]},
+                  {"time_s": [0, 1, 2], "velocity_mm_s": v, "angular_velocity_rad_s": w}):
+        with pytest.raises(condyle.UsageError):
+            joint.ligament_states(poses, **wrong)
+
+
+def test_the_command_damps_by_the_frames_or_by_the_speeds_of_the_file(file, command, tmp_path):
+    path = with_strings(file, DAMPED + """
+[recorded_motion]
+flexion = { column = "bend", sign = -1 }
+abduction = "tilt"
+""".replace("abduction", "adduction"))
+    joint = condyle.read_joint(path)
+    time = np.arange(0, 1.01, 0.1)
+    value = np.column_stack([-np.sin(time), 0.2 * np.cos(3 * time)])
+    speed = np.column_stack([-np.cos(time), -0.6 * np.sin(3 * time)])
+    with_speeds, without = tmp_path / "with.sto", tmp_path / "without.sto"
+    for name, columns in ((with_speeds, [time, value[:, 0], speed[:, 0], value[:, 1], speed[:, 1]]), (without, [time, *value.T])):
+        names = ["/j/k/bend/value", "/j/k/bend/speed", "/j/k/tilt/value", "/j/k/tilt/speed"]
+        names = names if name == with_speeds else names[::2]
+        rows = ["\t".join(map(repr, map(float, row))) for row in np.column_stack(columns)]
+        name.write_text("inDegrees=no\nendheader\n" + "\n".join(["\t".join(["time", *names]), *rows]) + "\n")
+        subprocess.run([command, "motion", path, "--motion", name, "--out", name.with_suffix("")], check=True, capture_output=True)
+    for name, source in ((with_speeds, "recorded"), (without, "frames")):
+        folder = name.with_suffix("")
+        motion = joint.motion(name)
+        velocities = {"time_s": motion.time} if source == "frames" else {
+            "velocity_mm_s": motion.velocity_mm_s, "angular_velocity_rad_s": motion.angular_velocity_rad_s}
+        assert (motion.velocity_mm_s is None) == (source == "frames")
+        states = joint.ligament_states(motion.X_FM, **velocities)
+        rows = rows_of(folder / "ligaments.csv")
+        said = json.loads((folder / "motion.json").read_text())
+        assert said["ligament_speeds_from"] == source
+        assert said["ligaments"][1]["largest_total_n"]["value"] == states.total_n[1].max()
+        for column, of in (("lengthening_mm_s", states.lengthening_mm_s), ("damping_n", states.damping_n), ("total_n", states.total_n)):
+            assert [float(row[f"back_{column}"]) for row in rows] == of[1].tolist()
+        sto = condyle.read_motion_table(folder / "ligaments.sto").columns
+        np.testing.assert_array_equal(sto["back.force_total"], states.total_n[1])
+        np.testing.assert_array_equal(sto["back.force_damping"], states.damping_n[1])
+        np.testing.assert_allclose(sto["back.lengthening_speed"], states.lengthening_mm_s[1] / 1000, rtol=1e-15)
+        assert states.damping_n[1].max() > 1
+    # The speeds are those of the curve, to the error of differences over 1e-4 s.
+    motion = joint.motion(with_speeds)
+    exact = joint.ligament_states(motion.X_FM, velocity_mm_s=motion.velocity_mm_s, angular_velocity_rad_s=motion.angular_velocity_rad_s)
+    beside = [joint.ligament_states(joint.pose(flexion_deg=np.degrees(np.sin(time + by)), adduction_deg=np.degrees(0.2 * np.cos(3 * (time + by)))))
+              for by in (-1e-4, 1e-4)]
+    np.testing.assert_allclose(exact.lengthening_mm_s, (beside[1].length_mm - beside[0].length_mm) / 2e-4, atol=1e-4)
+
+
 def test_what_does_not_look_for_ligaments_refuses_them(joint, file, command):
     done = subprocess.run([command, "rom", file, "--allow-depth", "1"], capture_output=True, text=True)
     assert done.returncode == 2 and "ligament front ends motions" in done.stderr
@@ -185,9 +261,34 @@ def test_ligaments_pull_only_against_a_force(file, command):
     assert done.returncode == 2 and "--ligaments: needs a force" in done.stderr
 
 
+GRID = ["--map", "flexion=-60:0:30", "adduction=-20:20:20"]
+
+
+def rows_of(path):
+    return list(csv.DictReader(line for line in open(path) if not line.startswith("#")))
+
+
 def test_a_map_says_which_ends_are_of_ligaments(file, command, tmp_path):
-    subprocess.run([command, "rom", file, "--motion", "flexion", "--map", "flexion=-60:0:30", "adduction=-20:20:20", "--out", tmp_path],
-                   check=True, capture_output=True)
-    rows = list(csv.DictReader(line for line in open(tmp_path / "map.csv") if not line.startswith("#")))
+    subprocess.run([command, "rom", file, "--motion", "flexion", *GRID, "--out", tmp_path], check=True, capture_output=True)
+    rows = rows_of(tmp_path / "map.csv")
     ends = [(row[f"{end}_reason"], row[f"{end}_contact_kind"]) for row in rows for end in ("lower", "upper")]
     assert ("ligament", "") in ends and ("ligament", "unknown") not in ends
+
+
+def test_a_load_moves_the_frames_so_that_their_speeds_are_not_those_of_the_file(command, sampled, tmp_path):
+    folder = sampled(tmp_path / "cartilages", "cartilages", "--clearance", "-0.3")
+    joint = folder / "cartilages.toml"
+    joint.write_text(joint.read_text() + '\n[[ligament]]\nname = "string"\nfixed = [0, 60, 0]\nmobile = [0, -30, 0]\nslack_length = 80\ndamping_n_s = 2\n'
+                     '\n[recorded_motion]\nflexion = "bend"\n')
+    (tmp_path / "s.sto").write_text("inDegrees=yes\nendheader\ntime\t/j/k/bend/value\t/j/k/bend/speed\n0\t0\t-7\n1\t3\t-7\n2\t6\t-7\n")
+    said = {}
+    for name, load in (("still", ["--load"]), ("loaded", ["--force", "0", "1500", "0"])):
+        done = subprocess.run([command, "motion", joint, "--motion", tmp_path / "s.sto", *load, "--e", "12", "--nu", "0.42", "--thickness", "1.5",
+                               "--out", tmp_path / name, "--json"], check=True, capture_output=True)
+        said[name] = json.loads(done.stdout)["ligament_speeds_from"]
+    assert said == {"still": "recorded", "loaded": "frames"}
+    rows = {name: rows_of(tmp_path / name / "ligaments.csv") for name in said}
+    length = [float(row["string_length_mm"]) for row in rows["loaded"]]
+    # Three frames a second apart: in the middle half the difference.
+    assert float(rows["loaded"][1]["string_lengthening_mm_s"]) == pytest.approx((length[2] - length[0]) / 2, rel=2e-2)
+    assert float(rows["still"][1]["string_lengthening_mm_s"]) * float(rows["loaded"][1]["string_lengthening_mm_s"]) < 0

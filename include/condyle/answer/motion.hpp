@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/control.hpp"
@@ -22,6 +23,15 @@ enum class BetweenFrames : std::uint8_t {
   always,    ///< Also if the origin moves: bounded. Needs times, and poses as recorded.
 };
 
+/// Where the speeds come from that ligaments are damped by.
+enum class SpeedsFrom : std::uint8_t {
+  none,      ///< No ligament has damping, or neither speeds nor times are known.
+  recorded,  ///< MotionRequest::motions
+  frames,    ///< motions_along(): times and poses of the frames, as balanced if a load was
+};
+/// As in files: "recorded".
+[[nodiscard]] std::string_view name_of(SpeedsFrom from) noexcept;
+
 /// Options of a request about a recorded motion, with their defaults.
 struct MotionRequest {
   std::vector<std::optional<Pose>> X_FM = {};  ///< one per frame, empty for gaps
@@ -38,6 +48,9 @@ struct MotionRequest {
   contact::NormalDepthOptions rays = {};
   motion::BodyNames names = {};  ///< as notes call the bodies
   std::vector<Ligament> ligaments = {};
+  /// How the mobile body moves in each frame, if it was recorded. Only what ligaments damp needs it; it is used if every frame that has a pose has it
+  /// too and no load moves the frames.
+  std::vector<std::optional<RelativeMotion>> motions = {};
 
   [[nodiscard]] bool has_load() const noexcept { return load || !loads.empty(); }
 };
@@ -53,12 +66,13 @@ struct MotionAnswer {
   /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
   /// ElasticContact::refined_force_n(). Empty without pressure.
   std::optional<double> refined_largest_force_n = {};
-  std::vector<LigamentAlong> ligaments = {};    ///< in the poses of the frames, balanced if a load was
+  std::vector<LigamentAlong> ligaments = {};  ///< in the poses of the frames, balanced if a load was
+  SpeedsFrom speeds_from = SpeedsFrom::none;
   std::vector<motion::ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion
   std::vector<std::string> caveats = {};        ///< with pressure: what an elastic foundation leaves out
 };
 
-/// Throws UsageError for times or loads that are not as many as frames, loads of both kinds, a moment without free rotations, or
+/// Throws UsageError for times, loads or motions that are not as many as frames, loads of both kinds, a moment without free rotations, or
 /// BetweenFrames::always without times or with a load.
 void check_motion_request(const MotionRequest& request);
 

@@ -233,6 +233,12 @@ struct JointMotion {
 /// for a joint that does not translate if its poses do by more than 1e-6 mm.
 [[nodiscard]] JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table);
 
+/// How the mobile body moves in each of those frames, where the table has columns of speeds: "/jointset/knee_r/knee_flex_r/speed" beside
+/// ".../value", as OpenSim writes states, in the same unit per second. Empty for gaps, and in all frames if a column that the motion needs has no
+/// speed; no entries if none has. By differences of the poses a thousandth of a radian or metre on either side, to some ten digits.
+[[nodiscard]] std::vector<std::optional<RelativeMotion>> recorded_speeds(const LoadedJoint& joint,
+                                                                         const MotionTable& table);
+
 /// The coordinates of its frames, without gaps.
 [[nodiscard]] std::vector<JointCoordinates> coordinates_of(const Joint& joint, const JointMotion& motion);
 

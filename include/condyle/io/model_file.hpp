@@ -118,7 +118,7 @@ struct ModelLigament {
   std::string name;
   std::vector<Point> points = {};
   std::vector<std::string> wraps = {};  ///< names of the surfaces
-  double stiffness_n = 0, slack_length = 0, transition_strain = 0.06;
+  double stiffness_n = 0, slack_length = 0, transition_strain = 0.06, damping_n_s = 0;
   bool applies = true;
   std::size_t line = 0;
 };

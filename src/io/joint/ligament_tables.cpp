@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -78,18 +79,16 @@ DescribedLigament described_ligament(TomlTable& table, const JointDescription& j
   ligament.fixed = points("fixed");
   ligament.mobile = points("mobile");
   read_slack(table, joint, mm, out);
-  const auto sigma_mm = [&](std::string_view key) {
-    const double sigma = table.number(key).value_or(0);
-    if (sigma < 0) table.fail(key, "must be 0 or more");
-    return mm * sigma;
+  const auto zero_or_more = [&](std::string_view key, double otherwise) {
+    const double value = table.number(key).value_or(otherwise);
+    if (value < 0) table.fail(key, "must be 0 or more");
+    return value;
   };
-  ligament.slack_sigma_mm = sigma_mm("slack_sigma");
-  ligament.point_sigma_mm = sigma_mm("point_sigma");
+  ligament.slack_sigma_mm = mm * zero_or_more("slack_sigma", 0);
+  ligament.point_sigma_mm = mm * zero_or_more("point_sigma", 0);
   if (table.has("stiffness_n")) ligament.stiffness_n = positive_number(table, "stiffness_n");
-  if (const auto strain = table.number("transition_strain")) {
-    if (*strain < 0) table.fail("transition_strain", "must be 0 or more");
-    ligament.transition_strain = *strain;
-  }
+  ligament.transition_strain = zero_or_more("transition_strain", ligament.transition_strain);
+  ligament.damping_n_s = zero_or_more("damping_n_s", 0);
   if (table.has("ends_at_strain")) ligament.ends_at_strain = positive_number(table, "ends_at_strain");
   if (table.is_text("wrap"))
     out.wraps_head = table.required_word("wrap", {"head"}) == 0;
@@ -161,9 +160,11 @@ std::string ligaments_text(std::span<const Ligament> ligaments, double mm) {
     if (ligament.stiffness_n > 0)
       text += fmt::format("stiffness_n = {}\ntransition_strain = {}\n", ligament.stiffness_n,
                           ligament.transition_strain);
-    if (ligament.slack_sigma_mm > 0) text += fmt::format("slack_sigma = {}\n", ligament.slack_sigma_mm / mm);
-    if (ligament.point_sigma_mm > 0) text += fmt::format("point_sigma = {}\n", ligament.point_sigma_mm / mm);
-    if (ligament.ends_at_strain) text += fmt::format("ends_at_strain = {}\n", *ligament.ends_at_strain);
+    for (const auto& [key, value] : {std::pair("damping_n_s", ligament.damping_n_s),
+                                     std::pair("slack_sigma", ligament.slack_sigma_mm / mm),
+                                     std::pair("point_sigma", ligament.point_sigma_mm / mm),
+                                     std::pair("ends_at_strain", ligament.ends_at_strain.value_or(0))})
+      if (value > 0) text += fmt::format("{} = {}\n", key, value);
     if (ligament.wrap) text += wrap_text(*ligament.wrap, mm);
   }
   return text;

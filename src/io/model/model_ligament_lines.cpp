@@ -64,7 +64,8 @@ class LigamentLines {
     Ligament ligament{.name = of.name,
                       .slack_length_mm = of.slack_length,
                       .stiffness_n = of.stiffness_n,
-                      .transition_strain = of.transition_strain};
+                      .transition_strain = of.transition_strain,
+                      .damping_n_s = of.damping_n_s};
     std::optional<BodyRole> before;
     int crossings = 0;
     for (const ModelLigament::Point& point : of.points) {

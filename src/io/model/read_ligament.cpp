@@ -49,10 +49,12 @@ ModelLigament ligament_of(const Source& source, const XmlElement& element, const
   ligament.stiffness_n = values.number("linear_stiffness", 1);
   ligament.slack_length = values.number("slack_length", 0);
   ligament.transition_strain = values.number("transition_strain", 0.06);
+  ligament.damping_n_s = values.number("damping_coefficient", 0.003);
   ligament.applies = values.flag("appliesForce", true) && !values.flag("isDisabled", false);
   if (!(ligament.slack_length > 0)) values.fail("slack_length must be above 0");
   if (!(ligament.stiffness_n >= 0)) values.fail("linear_stiffness must be 0 or more");
   if (!(ligament.transition_strain >= 0)) values.fail("transition_strain must be 0 or more");
+  if (!(ligament.damping_n_s >= 0)) values.fail("damping_coefficient must be 0 or more");
   return ligament;
 }
 

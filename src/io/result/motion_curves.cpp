@@ -163,6 +163,15 @@ Curves ligament_curves_of(const MotionQuestion& question, const MotionAnswer& an
                 [](const LigamentState& at) { return at.strain; });
     columns.add(name + (as_here ? "_tension_n" : ".force_spring"), ligament.frames,
                 [](const LigamentState& at) { return at.tension_n; });
+    if (ligament.damping.empty()) continue;
+    columns.add(name + (as_here ? "_lengthening_mm_s" : ".lengthening_speed"), ligament.damping,
+                [&](const LigamentDamping& at) {
+                  return as_here ? at.lengthening_mm_s : at.lengthening_mm_s / 1000;
+                });
+    columns.add(name + (as_here ? "_damping_n" : ".force_damping"), ligament.damping,
+                [](const LigamentDamping& at) { return at.damping_n; });
+    columns.add(name + (as_here ? "_total_n" : ".force_total"), ligament.damping,
+                [](const LigamentDamping& at) { return at.total_n; });
   }
   if (!as_here) return curves;
   // The sum over all ligaments exists in frames in which each has a length.

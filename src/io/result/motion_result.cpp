@@ -93,12 +93,13 @@ const Body& casting_body(const MotionQuestion& question) {
                                                              : question.surfaces.mobile;
 }
 
-/// The frame in which a ligament has most of something; none if no frame knows its length.
-std::optional<std::size_t> frame_of_most(const LigamentAlong& ligament, double LigamentState::*value) {
+/// The frame in which a ligament has most of something; none if it is not known in any.
+template <class Frame>
+std::optional<std::size_t> frame_of_most(const std::vector<std::optional<Frame>>& frames,
+                                         double Frame::*value) {
   std::optional<std::size_t> most;
-  for (std::size_t i = 0; i < ligament.frames.size(); ++i)
-    if (ligament.frames[i] && (!most || (*ligament.frames[i]).*value > (*ligament.frames[*most]).*value))
-      most = i;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (frames[i] && (!most || (*frames[i]).*value > (*frames[*most]).*value)) most = i;
   return most;
 }
 
@@ -109,7 +110,7 @@ std::string most_strained_text(const MotionAnswer& answer, const FrameTimes& tim
     const LigamentAlong* of = nullptr;
     std::size_t at = 0;
     for (const LigamentAlong& each : answer.ligaments)
-      if (const auto most = frame_of_most(each, value);
+      if (const auto most = frame_of_most(each.frames, value);
           most && (!of || (*each.frames[*most]).*value > (*of->frames[at]).*value))
         of = &each, at = *most;
     if (of)
@@ -118,23 +119,27 @@ std::string most_strained_text(const MotionAnswer& answer, const FrameTimes& tim
   };
   add(", largest strain", &LigamentState::strain, "");
   add(", largest tension", &LigamentState::tension_n, " N");
+  if (answer.speeds_from == SpeedsFrom::recorded) text += ", damped by the file's speeds";
+  if (answer.speeds_from == SpeedsFrom::frames) text += ", damped by speeds from one frame to the next";
   return text + "\n";
 }
 
 Json ligaments_json(const MotionAnswer& answer, const FrameTimes& times, const char* axis) {
   Json all = Json::array();
   for (const LigamentAlong& ligament : answer.ligaments) {
-    const auto most = [&](double LigamentState::*value) {
-      const auto at = frame_of_most(ligament, value);
-      return at ? Json{{"value", (*ligament.frames[*at]).*value}, {axis, times.values[*at]}} : Json(nullptr);
+    const auto most = [&](const auto& frames, auto value) {
+      const auto at = frame_of_most(frames, value);
+      return at ? Json{{"value", (*frames[*at]).*value}, {axis, times.values[*at]}} : Json(nullptr);
     };
     all.push_back({{"name", ligament.name},
                    {"slack_length_mm", ligament.slack_length_mm},
                    {"frames_known", std::count_if(ligament.frames.begin(), ligament.frames.end(),
                                                   [](const auto& frame) { return frame.has_value(); })},
-                   {"largest_length_mm", most(&LigamentState::length_mm)},
-                   {"largest_strain", most(&LigamentState::strain)},
-                   {"largest_tension_n", most(&LigamentState::tension_n)}});
+                   {"largest_length_mm", most(ligament.frames, &LigamentState::length_mm)},
+                   {"largest_strain", most(ligament.frames, &LigamentState::strain)},
+                   {"largest_tension_n", most(ligament.frames, &LigamentState::tension_n)}});
+    if (!ligament.damping.empty())
+      all.back()["largest_total_n"] = most(ligament.damping, &LigamentDamping::total_n);
   }
   return all;
 }
@@ -313,7 +318,10 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
     json["largest_force_n"] = largest(summary.force);
     json["largest_force_n"]["refined"] = io::nullable(answer.refined_largest_force_n);
   }
-  if (!answer.ligaments.empty()) json["ligaments"] = ligaments_json(answer, times, axis);
+  if (!answer.ligaments.empty()) {
+    json["ligaments"] = ligaments_json(answer, times, axis);
+    json["ligament_speeds_from"] = name_of(answer.speeds_from);
+  }
   json["caveats"] = answer.caveats;
   if (!answer.balanced.empty()) {
     json["frames_balanced"] = summary.balanced;

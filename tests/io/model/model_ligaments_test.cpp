@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "condyle/answer.hpp"
 #include "condyle/io/model_file.hpp"
@@ -41,8 +42,8 @@ class ModelLigaments : public testing::Test {
     std::size_t ligaments = 0, known = 0, unknown = 0;
     double length_m = 0, strain = 0, force_n = 0;
   };
-  /// The ligaments of a joint, by their names without numbers.
-  std::map<std::string, Compared> compared(const std::string& joint) {
+  /// The ligaments of a joint along the flexion, damped by its frames.
+  std::vector<LigamentAlong> along_flexion(const std::string& joint) {
     const fs::path data = test::shared_data_folder();
     io::ModelJointRequest request;
     request.joint = joint;
@@ -50,7 +51,12 @@ class ModelLigaments : public testing::Test {
     const io::JointMotion motion = io::motion_of(
         loaded, io::read_motion_table(data / "knee_lenhart2015_right/passive_flexion_states.sto"));
     reference_ = io::read_motion_table(data / "osim_lenhart2015/passive_flexion_ligament_reference.sto");
-    const auto along = ligaments_along(loaded.joint.ligaments, motion.X_FM);
+    return ligaments_along(loaded.joint.ligaments, motion.X_FM,
+                           motions_along(motion.X_FM, motion.times.values));
+  }
+  /// Compared with what was printed, by their names without numbers.
+  std::map<std::string, Compared> compared(const std::string& joint) {
+    const auto along = along_flexion(joint);
     std::map<std::string, Compared> groups;
     for (const LigamentAlong& ligament : along) {
       Compared& group = groups[ligament.name.substr(0, ligament.name.find_first_of("0123456789"))];
@@ -73,6 +79,31 @@ class ModelLigaments : public testing::Test {
   fs::path folder_;
   io::MotionTable reference_;
 };
+
+/// The file of the flexion has no speeds: its samples give them to about a hundredth.
+TEST_F(ModelLigaments, AreDampedAsOpenSimPrintedAsFarAsSpeedsFollowFromTheFrames) {
+  std::vector<double> off;
+  for (const char* joint : {"knee_r", "pf_r"})
+    for (const LigamentAlong& ligament : along_flexion(joint))
+      for (std::size_t row = 0; row < 51; ++row) {
+        if (!ligament.frames[5 * row] || ligament.name.starts_with("pCAP")) continue;
+        const double damping = printed(ligament.name + ".force_damping", row);
+        // Printed to 1e-8 each.
+        EXPECT_NEAR(printed(ligament.name + ".force_total", row),
+                    ligament.frames[5 * row]->tension_n + damping, 1.51e-8)
+            << ligament.name;
+        if (damping > 1e-6) {
+          off.push_back(std::abs(ligament.damping[5 * row]->damping_n / damping - 1));
+        } else if (ligament.frames[5 * row]->strain <= 0) {
+          EXPECT_EQ(ligament.damping[5 * row]->damping_n, 0) << ligament.name;
+        }
+      }
+  ASSERT_GT(off.size(), 400u);
+  std::sort(off.begin(), off.end());
+  RecordProperty("median", std::to_string(off[off.size() / 2]));
+  EXPECT_LT(off[off.size() / 2], 0.01);
+  EXPECT_LT(off[off.size() * 9 / 10], 0.15);
+}
 
 TEST_F(ModelLigaments, HaveTheLengthsAndForcesThatOpenSimPrinted) {
   auto knee = compared("knee_r");
