@@ -32,6 +32,7 @@ py::array values_of(const motion::GridAxis& axis) {
 struct Ends {
   std::vector<double> turned_deg, error_bound_deg, bearing_contact_deg;
   std::vector<std::int8_t> reason, kind;
+  std::vector<std::int32_t> ligament;
   Points fixed_point;
 
   void add(const motion::Limit& limit, const io::AnswerFrame& frame) {
@@ -41,6 +42,7 @@ struct Ends {
     bearing_contact_deg.push_back(limit.bearing_contact ? limit.bearing_contact->turned.degrees() : none);
     reason.push_back(static_cast<std::int8_t>(limit.reason));
     kind.push_back(static_cast<std::int8_t>(limit.kind()));
+    ligament.push_back(limit.ligament ? static_cast<std::int32_t>(*limit.ligament) : -1);
     fixed_point.push_back(limit.contact ? frame.fixed_point(limit.contact->fixed_point)
                                         : Vec3::Constant(none));
   }
@@ -53,6 +55,7 @@ struct Ends {
     dict["error_bound_deg"] = array_of(std::move(error_bound_deg));
     dict["bearing_contact_deg"] = array_of(std::move(bearing_contact_deg));
     dict["fixed_point"] = array_of(fixed_point);
+    dict["ligament"] = array_of(std::move(ligament));
     return dict;
   }
 };

@@ -22,7 +22,8 @@ class MapEnds:
     """One end of the rotation that holds the start, at every grid point, (R, C) each and `fixed_point` (R, C, 3).
 
     `turned_deg` from the start; `reason` and `kind` are positions in :data:`REASONS` and :data:`KINDS`;
-    `bearing_contact_deg` and `fixed_point` (F, mm) are NaN where there is none.
+    `bearing_contact_deg` and `fixed_point` (F, mm) are NaN where there is none. `ligament` is the position of the one
+    that ends it in the map's `ligaments`, -1 where none does.
     """
 
     turned_deg: NDArray[np.float64]
@@ -31,6 +32,7 @@ class MapEnds:
     error_bound_deg: NDArray[np.float64]
     bearing_contact_deg: NDArray[np.float64]
     fixed_point: NDArray[np.float64]
+    ligament: NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -57,6 +59,8 @@ class MotionMap:
     free_volume_deg3, weighted_free_volume_deg3 : float
         How much of the space of angles is free; the second by the measure that does not depend on how rotations are
         written down.
+    ligaments : tuple of str
+        Names of the joint's ligaments.
     """
 
     row: str
@@ -76,6 +80,7 @@ class MotionMap:
     row_area_deg2: NDArray[np.float64]
     free_volume_deg3: float
     weighted_free_volume_deg3: float
+    ligaments: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         free = int((self.free_width_deg > 0).sum())
@@ -108,7 +113,8 @@ class MotionMap:
             coords={dims[0]: self.row_deg, dims[1]: self.column_deg}, attrs={"vary": self.vary})
 
 
-def map_of(found: dict[str, Any], row: str, column: str, vary: str, start: float) -> MotionMap:
+def map_of(found: dict[str, Any], row: str, column: str, vary: str, start: float,
+           ligaments: tuple[str, ...]) -> MotionMap:
     shape = len(found["row_deg"]), len(found["column_deg"])
     ends = {}
     for name in ("negative", "positive"):
@@ -128,4 +134,4 @@ def map_of(found: dict[str, Any], row: str, column: str, vary: str, start: float
     return MotionMap(row, column, vary, start, found["row_deg"], found["column_deg"], lower.reshape(shape),
                      upper.reshape(shape), width.reshape(shape), free, offset, np.column_stack([low, high]),
                      ends["negative"], ends["positive"], found["row_area_deg2"],
-                     found["free_volume_deg3"], found["weighted_free_volume_deg3"])
+                     found["free_volume_deg3"], found["weighted_free_volume_deg3"], ligaments)

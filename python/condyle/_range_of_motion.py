@@ -199,7 +199,8 @@ class RangeOfMotion(HasLimits, Unchanging):
         found = _native.motion_map(self._native, *axes, which, start, -180.0, 180.0, progress_of(progress))
         reported(found.pop("notes"))
         row_name, column_name, vary_name = (self._motions.angles[i][0] for i in (axes[0][0], axes[1][0], which))
-        return map_of(found, row_name, column_name, vary_name, start)
+        ligaments = tuple(each.name for each in self._joint.ligaments)
+        return map_of(found, row_name, column_name, vary_name, start, ligaments)
 
     def write_limits(self, path: Path, *, limits: LimitSource = "bony", column: Optional[Mapping[str, Sequence[float]]] = None,
                      row: Optional[Mapping[str, Sequence[float]]] = None, vary: Optional[str] = None, stop: StopForce = "limit",

@@ -275,6 +275,52 @@ def test_a_map_says_which_ends_are_of_ligaments(file, command, tmp_path):
     assert ("ligament", "") in ends and ("ligament", "unknown") not in ends
 
 
+TWO_ENDING = """
+[[ligament]]
+name = "front, long"
+fixed = [30, 28, 8]
+mobile = [12, -38, 30]
+slack_share = 1.05
+ends_at_strain = 0.1
+wrap = { shape = "sphere", body = "mobile", centre = [0, 0, 0], radius = 24 }
+
+[[ligament]]
+name = "back"
+fixed = [-28, -15, 10]
+mobile = [2, 5, 48]
+slack_share = 1.1
+ends_at_strain = 0.1
+"""
+
+
+def test_a_map_names_the_ligament_of_each_end(file, command, tmp_path):
+    path = with_strings(file, TWO_ENDING)
+    subprocess.run([command, "rom", path, "--motion", "flexion", *GRID, "--out", tmp_path, "--ascii"], check=True, capture_output=True)
+    joint = condyle.read_joint(path)
+    found = joint.range_of_motion([]).map({"flexion": (-60, 0, 30)}, {"adduction": (-20, 20, 20)})
+    assert found.ligaments == ("front, long", "back")
+    rows = rows_of(tmp_path / "map.csv")
+    named = set()
+    for i, row in enumerate(rows):
+        for side, ends, sign in (("lower", found.negative, -1), ("upper", found.positive, 1)):
+            which = ends.ligament.ravel()[i]
+            assert row[f"{side}_ligament"] == ("" if which < 0 else found.ligaments[which])
+            assert (row[f"{side}_reason"] in ("ligament", "strained_at_start")) == (which >= 0)
+            if row[f"{side}_reason"] != "ligament":
+                continue
+            # It is at its strain there, and no other is beyond it.
+            at = joint.ligament_states(joint.pose(flexion_deg=float(row["flexion_deg"]), adduction_deg=float(row["adduction_deg"]),
+                                                  internal_rotation_deg=sign * ends.turned_deg.ravel()[i]))
+            assert at.strain[which] == pytest.approx(0.1, abs=1e-9) and at.strain.max() < 0.1 + 1e-9
+            named.add(row[f"{side}_ligament"])
+    assert named == {"front, long", "back"}
+    # Free intervals name theirs too, and map.vtp numbers them.
+    intervals = rows_of(tmp_path / "map_intervals.csv")
+    assert {row["low_ligament"] for row in intervals} | {row["high_ligament"] for row in intervals} >= named
+    vtp = (tmp_path / "map.vtp").read_text()
+    assert 'Name="lower_ligament"' in vtp and 'Name="upper_ligament"' in vtp and 'Name="interval_low_ligament"' in vtp
+
+
 def test_a_load_moves_the_frames_so_that_their_speeds_are_not_those_of_the_file(command, sampled, tmp_path):
     folder = sampled(tmp_path / "cartilages", "cartilages", "--clearance", "-0.3")
     joint = folder / "cartilages.toml"

@@ -30,7 +30,7 @@ from .files import ReadError
 from .flatten import Flattened, about_centre, on_plane
 from .hip_shape import alpha_by_clock, centre_edge_by_clock, hip_shape
 from .limit_bars import limits
-from .map_contours import motion_map
+from .map_contours import map_ends, motion_map
 from .motion_curves import curve, cycles, panels, table_of
 from .motion_grid import MotionGrid
 from .outliers import Outlier, outliers
@@ -62,6 +62,7 @@ __all__ = [
     "limit_distributions",
     "limits",
     "many_methods",
+    "map_ends",
     "margins_along",
     "motion_map",
     "on_plane",

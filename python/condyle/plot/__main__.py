@@ -47,7 +47,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="python3 -m condyle.plot", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
         description="Draws what condyle rom, condyle motion, condyle measure or condyle sweep left in a folder: limits or "
-        "limit_bands, clock_face,\nmap_MOVEMENT and map_free_range; curves, cycle and pressure_map or depth_map; hip_shape; safe_zone "
+        "limit_bands, clock_face,\nmap_MOVEMENT, map_MOVEMENT_ends and map_free_range; curves, cycle and pressure_map "
+        "or depth_map; hip_shape; safe_zone "
         "and safe_probability.\nOf a patient's folder, as condyle hip leaves it, draws the figures of each side, sheet.pdf of each, and both: "
         "how far both turn.\nOf a study's folder, as condyle study leaves it, draws limit_distributions, limits_by_COLUMN and "
         "limits_against_COLUMN for each column of the table,\nmeasure_distributions, contact_sheet.pdf of all joints, and writes outliers.csv. "

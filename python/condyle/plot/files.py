@@ -266,6 +266,8 @@ class _Interval(NamedTuple):
     low_open: bool
     high_open: bool
     holds_start: bool
+    low_ligament: str
+    high_ligament: str
 
 
 def _read_grid(folder: Path, summary: Dict[str, Any], path: Path) -> MotionGrid:
@@ -302,13 +304,15 @@ def _read_intervals(path: Path, columns: Array, rows: Array) -> Dict[Tuple[int, 
         if name not in names:
             raise ReadError(f"{path}: no column '{name}'")
     low_reason, high_reason, holds_start = (names.index(name) for name in needed)
+    # Earlier versions wrote no names.
+    ligaments = [names.index(name) if name in names else None for name in ("low_ligament", "high_ligament")]
     found: Dict[Tuple[int, int], List[_Interval]] = {}
     for i, fields in lines:
         at_column, at_row, low, high = (_number(path, i, names[k], fields[k]) for k in range(4))
         point = _index(path, i, names[1], rows, at_row), _index(path, i, names[0], columns, at_column)
         found.setdefault(point, []).append(
             _Interval(low, high, fields[low_reason] == "end_of_range", fields[high_reason] == "end_of_range",
-                      fields[holds_start] == "1"))
+                      fields[holds_start] == "1", *("" if k is None else fields[k] for k in ligaments)))
     return found
 
 
@@ -329,14 +333,18 @@ def _grid_of(intervals: Dict[Tuple[int, int], List[_Interval]], column: Tuple[st
     lower, upper = np.full(shape, np.nan), np.full(shape, np.nan)
     lower_open, upper_open, free_at_start = (np.zeros(shape, dtype=bool) for _ in range(3))
     count = np.zeros(shape, dtype=np.int64)
+    longest = max((len(name) for of_point in intervals.values() for each in of_point
+                   for name in (each.low_ligament, each.high_ligament)), default=0)
+    lower_ligament, upper_ligament = (np.zeros(shape, dtype=f"<U{max(longest, 1)}") for _ in range(2))
     for point, of_point in intervals.items():
         held = [interval for interval in of_point if interval.holds_start]
         drawn = held[0] if held else min(of_point, key=lambda interval: _distance(interval, start))
         lower[point], upper[point] = drawn.low, drawn.high
         lower_open[point], upper_open[point] = drawn.low_open, drawn.high_open
+        lower_ligament[point], upper_ligament[point] = drawn.low_ligament, drawn.high_ligament
         free_at_start[point], count[point] = bool(held), len(of_point)
     return MotionGrid(column, row, varied, columns, rows, start, lower, upper, lower_open, upper_open, free_at_start,
-                      count)
+                      count, lower_ligament, upper_ligament)
 
 
 class Surface(NamedTuple):

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import functools
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from . import files, style
 from .hip_shape import hip_shape
 from .limit_bars import limits
-from .map_contours import VIEWS, View, motion_map
+from .map_contours import VIEWS, View, ligaments_of, map_ends, motion_map
 from .motion_curves import QUANTITIES, has, panels
 from .pressure_surface import Projection, add_scale, laid_flat, pressure_map, quantity_label
 from .rim_clock import clock_face
@@ -82,11 +82,17 @@ def _of_rom(result: Dict[str, Any]) -> List[Drawing]:
         for view in VIEWS:
             movement = {"positive": grid.varied[0], "negative": grid.varied[1]}.get(view, view)
             found.append((f"map_{movement}", functools.partial(_map, result, view)))
+            if view != "free_range" and min(grid.lower_deg.shape) > 1 and ligaments_of(grid, view):
+                found.append((f"map_{movement}_ends", functools.partial(_ends, result, view)))
     return found
 
 
 def _map(result: Dict[str, Any], view: View) -> Figure:
     return motion_map(result, view).figure
+
+
+def _ends(result: Dict[str, Any], side: Literal["positive", "negative"]) -> Figure:
+    return map_ends(result, side).figure
 
 
 def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: Projection) -> List[Drawing]:

@@ -53,10 +53,13 @@ def _of_motion_map(result: Any) -> MotionGrid:
     end_of_range = 1  # condyle.REASONS
     free = np.asarray(result.free_at_start)
     count = np.diff(np.asarray(result.offset)).reshape(free.shape)
+    names = np.array(("", *result.ligaments))
+    lower, upper = (np.where(free, names[np.asarray(end.ligament) + 1], "")
+                    for end in (result.negative, result.positive))
     return MotionGrid(column, row, varied, np.asarray(result.column_deg), np.asarray(result.row_deg),
                       float(result.start_deg), np.asarray(result.lower_deg), np.asarray(result.upper_deg),
                       (np.asarray(result.negative.reason) == end_of_range) & free,
-                      (np.asarray(result.positive.reason) == end_of_range) & free, free, count)
+                      (np.asarray(result.positive.reason) == end_of_range) & free, free, count, lower, upper)
 
 
 def values_of(grid: MotionGrid, view: str) -> Array:
@@ -127,14 +130,14 @@ def _marks(grid: MotionGrid, view: str) -> List[Tuple[str, NDArray[np.bool_]]]:
     return [(name, marked) for name, marked in marks if marked.any()]
 
 
-def _handles(names: Sequence[str]) -> List[Patch]:
-    """Meaning of the hatchings, for the legend."""
+def _handles(names: Sequence[str], ground: Optional[str] = None) -> List[Patch]:
+    """Meaning of the hatchings, for the legend; on this ground where it is not that of a contour."""
     handles = []
     for name in names:
         pattern, colour, words = HATCHES[name]
         colours = matplotlib.colormaps[style.SEQUENTIAL]
-        ground = style.LIGHT_GREY if name == "nowhere" else colours(0.45 if name == "open" else 0.75)
-        handles.append(Patch(facecolor=ground, edgecolor=colour, hatch=pattern, linewidth=0, label=words))
+        below = style.LIGHT_GREY if name == "nowhere" else ground or colours(0.45 if name == "open" else 0.75)
+        handles.append(Patch(facecolor=below, edgecolor=colour, hatch=pattern, linewidth=0, label=words))
     return handles
 
 
@@ -211,6 +214,94 @@ def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] =
             bar.set_label(in_two_lines(f"{quantity_of(grid, view)} (°)", 40))
         if legend:
             style.legend_below(ax, is_ours, _handles([name for name, _ in marks]))
+    return ax
+
+
+END_COLOURS = tuple(style.tinted(colour) for colour in (style.BLUE, style.VERMILION, style.GREEN, style.ORANGE,
+                                                       style.PURPLE, style.SKY_BLUE, style.YELLOW))
+"""Of ligaments, by how many points they end; more of them have these again, hatched."""
+END_HATCHES = ("", "....", "xxxx", "oooo", "----")
+
+
+def ligaments_of(grid: MotionGrid, side: Optional[str] = None) -> List[str]:
+    """Ligaments that end the motion somewhere on the map, to one side or to either: first who ends most points."""
+    if side not in ("positive", "negative", None):
+        raise UsageError(f"side '{side}': there are positive and negative")
+    sides = [names for name, names in (("positive", grid.upper_ligament), ("negative", grid.lower_ligament))
+             if side in (name, None) and names is not None]
+    all_names = np.concatenate([np.empty(0, dtype="<U1"), *(names[names != ""] for names in sides)])
+    found, count = np.unique(all_names, return_counts=True)
+    return [str(name) for _, name in sorted(zip(-count, found))]
+
+
+def _look_of(place: int) -> Tuple[str, str]:
+    """Colour and hatch of a ligament by its place among all of the map, so that both sides have the same."""
+    return END_COLOURS[place % len(END_COLOURS)], END_HATCHES[place // len(END_COLOURS) % len(END_HATCHES)]
+
+
+def map_ends(result: MapLike, side: Literal["positive", "negative"] = "positive", *, ax: Optional[Axes] = None,
+             legend: bool = True) -> Axes:
+    """Draws what ends the motion in one sense over two held angles: ligaments in a colour each, contact in grey.
+
+    Parameters
+    ----------
+    result
+        As :func:`motion_map` takes it; two columns and two rows at least.
+    side
+        `"positive"` or `"negative"`: the sense of the varied angle.
+    ax, legend
+        As of :func:`motion_map`.
+
+    Returns
+    -------
+    The axes. Cells lie around the points of the map, by gid `ligament NAME`, `contact` and `end_of_range`; hatched ones
+    have the gids of :func:`motion_map`. Lines are contours of the limit, in degrees from the start.
+    """
+    grid = grid_of(result)
+    values = values_of(grid, side)
+    if np.isnan(values).all():
+        raise UsageError("nothing to draw: no point of the map is free")
+    if min(values.shape) < 2:
+        raise UsageError("a map of one row or one column has no area: motion_map draws it")
+    ligaments = ligaments_of(grid, side)
+    places = {name: i for i, name in enumerate(ligaments_of(grid))}
+    names, is_open = ((grid.upper_ligament, grid.upper_open) if side == "positive" else
+                      (grid.lower_ligament, grid.lower_open))
+    by_ligament = np.zeros(values.shape, dtype=bool) if names is None else names != ""
+    somewhere = grid.intervals > 0
+    #        gid, words, colour, hatch, cells
+    ends = [(f"ligament {name}", name, *_look_of(places[name]), names == name) for name in ligaments]
+    ends += [("contact", "contact", style.tinted(style.GREY), "", somewhere & ~by_ligament & ~is_open),
+             ("end_of_range", "end of the range", "white", "", somewhere & is_open)]
+    ends = [end for end in ends if end[-1].any()]
+    marks = [(name, marked) for name, marked in _marks(grid, side) if name != "open"]
+    is_ours = ax is None
+    with style.drawing(ax, style.SINGLE_COLUMN_MM, 68 + style.rows_below(len(ends) + len(marks))) as ax:
+        ax.set_facecolor(style.LIGHT_GREY)
+        ax.set_xlim(grid.columns_deg[0], grid.columns_deg[-1])
+        ax.set_ylim(grid.rows_deg[0], grid.rows_deg[-1])
+        for gid, _, colour, hatch, cells in ends:
+            ax.add_collection(PatchCollection(list(_cells(grid, cells)), facecolor=colour, linewidth=0,
+                                              edgecolor="black" if hatch else "none", hatch=hatch or None, zorder=1,
+                                              gid=gid))
+        for name, marked in marks:
+            _hatch(ax, grid, marked, name)
+        lines = ax.contour(grid.columns_deg, grid.rows_deg, values, levels=_levels(values), colors="black",
+                           linewidths=0.5, zorder=2)
+        style.tidy(ax, ax.clabel(lines, fmt=lambda level: number(level), fontsize=style.smaller(1), inline=False))
+        for edge in ("top", "right"):
+            ax.spines[edge].set_visible(True)
+        _angle_ticks(ax.xaxis, grid.columns_deg)
+        _angle_ticks(ax.yaxis, grid.rows_deg)
+        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim()), scope_clause(result)))))
+        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim()))
+        movement = spaced(grid.varied[side == "negative"])
+        ax.text(1.02, 0.5, in_two_lines(f"what ends {movement}; lines: after how far (°)", 40), transform=ax.transAxes,
+                rotation=90, va="center", ha="left", multialignment="center")
+        if legend:
+            style.legend_below(ax, is_ours, [
+                Patch(facecolor=colour, edgecolor="black", hatch=hatch or None, linewidth=0.4, label=words)
+                for _, words, colour, hatch, _ in ends] + _handles([name for name, _ in marks], "white"))
     return ax
 
 

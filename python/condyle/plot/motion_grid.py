@@ -1,7 +1,7 @@
 """A map of combined motion as arrays."""
 from __future__ import annotations
 
-from typing import NamedTuple, Tuple
+from typing import NamedTuple, Optional, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,3 +39,6 @@ class MotionGrid(NamedTuple):
     """Whether the start is free."""
     intervals: NDArray[np.int64]
     """How many free intervals there are; 0 where nothing is free."""
+    lower_ligament: Optional[NDArray[np.str_]] = None
+    """The ligament that makes the lower end, "" where none does; None of a joint without ligaments."""
+    upper_ligament: Optional[NDArray[np.str_]] = None

@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 from matplotlib import patheffects as effects
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
@@ -149,6 +150,11 @@ def tidy(ax: Axes, labels: Sequence[Text], marks: Sequence[Sequence[float]] = ()
             kept.append(extent)
         else:
             label.set_visible(False)
+
+
+def tinted(colour: str) -> str:
+    """A colour as a ground, on which black lines are seen: half of it is white."""
+    return str(to_hex([(1 + part) / 2 for part in to_rgb(colour)]))
 
 
 def smaller(points: float = 1) -> float:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "condyle/io/pose_text.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/joint/grid_text.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/movement_words.hpp"
@@ -15,19 +16,20 @@ namespace {
 std::string end_columns(std::string_view end) {
   return fmt::format(
       ",{0}_reason,{0}_contact_kind,{0}_error_bound_deg,{0}_bearing_contact_deg,"
-      "{0}_contact_x_mm,{0}_contact_y_mm,{0}_contact_z_mm",
+      "{0}_contact_x_mm,{0}_contact_y_mm,{0}_contact_z_mm,{0}_ligament",
       end);
 }
 
-std::string csv_of(const motion::Limit& end, const AnswerFrame& frame) {
+std::string csv_of(const motion::Limit& end, std::span<const Ligament> ligaments, const AnswerFrame& frame) {
   std::string text =
       fmt::format(",{},{},{},{}", name_of(end.reason),
                   end.reason == motion::LimitReason::end_of_range || end.ligament ? "" : name_of(end.kind()),
                   end.error_bound.degrees(),
                   end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "");
-  if (!end.contact) return text + ",,,";
+  if (end.ligament) return text + ",,,," + csv_field(ligaments[*end.ligament].name);
+  if (!end.contact) return text + ",,,,";
   const Vec3 p = frame.fixed_point(end.contact->fixed_point);
-  return text + fmt::format(",{},{},{}", p.x(), p.y(), p.z());
+  return text + fmt::format(",{},{},{},", p.x(), p.y(), p.z());
 }
 
 }  // namespace
@@ -64,7 +66,8 @@ std::string map_text(const motion::MotionMap& map) {
                             name_of(JointAngle::adduction, map.anatomy));
 }
 
-std::string map_csv(const motion::MotionMap& map, const AnswerFrame& frame) {
+std::string map_csv(const motion::MotionMap& map, std::span<const Ligament> ligaments,
+                    const AnswerFrame& frame) {
   const motion::MapGrid& grid = map.grid;
   const std::string_view varied = name_of(grid.vary, map.anatomy);
   std::string text =
@@ -79,12 +82,13 @@ std::string map_csv(const motion::MotionMap& map, const AnswerFrame& frame) {
     text +=
         fmt::format("{},{},{},{}{}{}\n", grid.column.value_deg(i % columns), grid.row.value_deg(i / columns),
                     (grid.start - negative.turned).degrees(), (grid.start + positive.turned).degrees(),
-                    csv_of(negative, frame), csv_of(positive, frame));
+                    csv_of(negative, ligaments, frame), csv_of(positive, ligaments, frame));
   }
   return text;
 }
 
-std::string map_intervals_csv(const motion::MotionMap& map, const AnswerFrame& frame) {
+std::string map_intervals_csv(const motion::MotionMap& map, std::span<const Ligament> ligaments,
+                              const AnswerFrame& frame) {
   const motion::MapGrid& grid = map.grid;
   std::string text = fmt::format("{0}_deg,{1}_deg,{2}_low_deg,{2}_high_deg,holds_start",
                                  name_of(grid.column.angle, map.anatomy),
@@ -97,7 +101,7 @@ std::string map_intervals_csv(const motion::MotionMap& map, const AnswerFrame& f
       text += fmt::format("{},{},{},{},{}{}{}\n", grid.column.value_deg(i % columns),
                           grid.row.value_deg(i / columns), (grid.start + free.low).degrees(),
                           (grid.start + free.high).degrees(), free.holds_start() ? 1 : 0,
-                          csv_of(free.at_low, frame), csv_of(free.at_high, frame));
+                          csv_of(free.at_low, ligaments, frame), csv_of(free.at_high, ligaments, frame));
   return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,12 +15,14 @@ namespace condyle::io {
 std::string map_text(const motion::MotionMap& map);
 
 /// One line per grid point, row by row, with a header line: the held angles, both limits of the varied angle
-/// as values of that angle, how they end, and the contact points. Numbers to the last bit.
-std::string map_csv(const motion::MotionMap& map, const AnswerFrame& frame = {});
+/// as values of that angle, how they end, and the contact points. Numbers to the last bit. `ligaments` are the joint's.
+std::string map_csv(const motion::MotionMap& map, std::span<const Ligament> ligaments = {},
+                    const AnswerFrame& frame = {});
 
 /// One line per free interval of every grid point, with a header line: the held angles, both ends as values of the
 /// varied angle, whether it holds the start, how the ends came about, and the contact points.
-std::string map_intervals_csv(const motion::MotionMap& map, const AnswerFrame& frame = {});
+std::string map_intervals_csv(const motion::MotionMap& map, std::span<const Ligament> ligaments = {},
+                              const AnswerFrame& frame = {});
 
 /// "flexion" or "extension", and so on: the clinical word for changing an angle in this sense.
 std::string_view movement_name(JointAngle angle, RotationSense sense, Anatomy joint) noexcept;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,7 +35,8 @@ bool is_drawn_of_rom(std::string_view name) {
   for (const Anatomy joint : all_anatomies)
     for (const auto& [positive, negative] : coordinate_names(joint))
       for (const std::string_view movement : {positive, negative})
-        if (stem == fmt::format("map_{}", movement)) return true;
+        if (stem == fmt::format("map_{}", movement) || stem == fmt::format("map_{}_ends", movement))
+          return true;
   return false;
 }
 
@@ -79,6 +81,26 @@ std::int32_t code_of(motion::LimitReason reason) noexcept {
 }
 constexpr std::int32_t nothing_free = -1;
 
+/// Which of the joint's ligaments makes an interval's end.
+std::int32_t ligament_of(const motion::Limit& end) noexcept {
+  return end.ligament ? static_cast<std::int32_t>(*end.ligament) : -1;
+}
+
+/// Names of the ligaments, each with its line's end, and which of them end the free intervals.
+void add_ligaments(const motion::MotionMap& map, std::span<const Ligament> ligaments, VtpOptions& options) {
+  std::string names;
+  for (const Ligament& ligament : ligaments) names += ligament.name + "\n";
+  std::vector<double> low, high;
+  for (const motion::FreeAngles& point : map.points)
+    for (const motion::FreeInterval& free : point.intervals) {
+      low.push_back(ligament_of(free.at_low));
+      high.push_back(ligament_of(free.at_high));
+    }
+  options.fields.push_back({"ligaments", std::move(names)});
+  options.fields.push_back({"interval_low_ligament", std::move(low)});
+  options.fields.push_back({"interval_high_ligament", std::move(high)});
+}
+
 /// The free intervals of all points, which are more than a value per point.
 void add_intervals(const motion::MotionMap& map, VtpOptions& options) {
   MapIntervals all = all_intervals(map);
@@ -95,11 +117,12 @@ void add_intervals(const motion::MotionMap& map, VtpOptions& options) {
 }
 
 /// The grid as a flat surface in degrees, columns along x and rows along y, with what is free at its points.
-void write_map_surface(const std::filesystem::path& path, const motion::MotionMap& map, VtpOptions options) {
+void write_map_surface(const std::filesystem::path& path, const motion::MotionMap& map,
+                       std::span<const Ligament> ligaments, VtpOptions options) {
   const std::size_t columns = map.grid.column.count(), rows = map.grid.row.count();
   TriMesh surface;
   std::vector<double> lower, upper, width;
-  std::vector<std::int32_t> intervals, lower_reason, upper_reason;
+  std::vector<std::int32_t> intervals, lower_reason, upper_reason, lower_ligament, upper_ligament;
   std::vector<std::uint8_t> free_at_start;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     surface.vertices.push_back(
@@ -111,6 +134,8 @@ void write_map_surface(const std::filesystem::path& path, const motion::MotionMa
     upper.push_back(drawn ? (map.grid.start + drawn->high).degrees() : none);
     lower_reason.push_back(drawn ? code_of(drawn->at_low.reason) : nothing_free);
     upper_reason.push_back(drawn ? code_of(drawn->at_high.reason) : nothing_free);
+    lower_ligament.push_back(drawn ? ligament_of(drawn->at_low) : -1);
+    upper_ligament.push_back(drawn ? ligament_of(drawn->at_high) : -1);
     double free = 0;
     for (const motion::FreeInterval& interval : point.intervals)
       free += (interval.high - interval.low).degrees();
@@ -125,24 +150,31 @@ void write_map_surface(const std::filesystem::path& path, const motion::MotionMa
       surface.triangles.push_back({a, b, c});
       surface.triangles.push_back({a, c, d});
     }
-  const MeshArray arrays[] = {{"free_width_deg", std::move(width)},
-                              {"lower_deg", std::move(lower)},
-                              {"upper_deg", std::move(upper)},
-                              {"lower_reason", std::move(lower_reason)},
-                              {"upper_reason", std::move(upper_reason)},
-                              {"free_intervals", std::move(intervals)},
-                              {"free_at_start", std::move(free_at_start)}};
+  std::vector<MeshArray> arrays = {{"free_width_deg", std::move(width)},
+                                   {"lower_deg", std::move(lower)},
+                                   {"upper_deg", std::move(upper)},
+                                   {"lower_reason", std::move(lower_reason)},
+                                   {"upper_reason", std::move(upper_reason)},
+                                   {"free_intervals", std::move(intervals)},
+                                   {"free_at_start", std::move(free_at_start)}};
   add_intervals(map, options);
+  if (!ligaments.empty()) {
+    arrays.push_back({"lower_ligament", std::move(lower_ligament)});
+    arrays.push_back({"upper_ligament", std::move(upper_ligament)});
+    add_ligaments(map, ligaments, options);
+  }
   write_vtp(path, surface, arrays, {}, options);
 }
 
 void write_map(OutputFolder& out, const RomResult& result, const VtpOptions& vtp) {
   const motion::MotionMap& map = *result.answer.map;
   const std::string comments = io::provenance_comments(result.provenance);
-  io::write_whole_file(out.file("map.csv"), comments + map_csv(map, frame_of(result)));
-  io::write_whole_file(out.file("map_intervals.csv"), comments + map_intervals_csv(map, frame_of(result)));
+  io::write_whole_file(out.file("map.csv"),
+                       comments + map_csv(map, result.joint.ligaments, frame_of(result)));
+  io::write_whole_file(out.file("map_intervals.csv"),
+                       comments + map_intervals_csv(map, result.joint.ligaments, frame_of(result)));
   if (map.grid.row.count() > 1 && map.grid.column.count() > 1)
-    write_map_surface(out.file("map.vtp"), map, vtp);
+    write_map_surface(out.file("map.vtp"), map, result.joint.ligaments, vtp);
 }
 
 /// The mobile body at zero angles, triangles of the bearing surface marked.

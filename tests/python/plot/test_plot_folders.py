@@ -111,6 +111,20 @@ def test_a_folder_has_the_figures_of_its_data(tmp_path):
 BAND = {"p5_deg": 95.0, "median_deg": 100.0, "p95_deg": 105.0}
 
 
+def test_a_map_that_ligaments_end_has_a_figure_of_what_ends_it(tmp_path):
+    folder = map_folder(tmp_path / "map")
+    lines = INTERVALS.splitlines()
+    header = next(i for i, line in enumerate(lines) if not line.startswith("#"))
+    lines[header] += ",low_ligament,high_ligament"
+    for i in range(header + 1, len(lines)):
+        lines[i] += ',,"band, front"' if i == header + 1 else ",,"
+    (folder / "map_intervals.csv").write_text("\n".join(lines) + "\n")
+    names = [name for name, _ in drawings(folder)]
+    assert names == ["limits", "clock_face", "map_internal_rotation", "map_internal_rotation_ends", "map_external_rotation", "map_free_range"]
+    grid = figures.files.read_rom(folder)["grid"]
+    assert sorted(set(grid.upper_ligament.ravel())) == ["", "band, front"] and set(grid.lower_ligament.ravel()) == {""}
+
+
 def test_limits_of_a_map_do_not_replace_those_with_bands(tmp_path):
     banded = {"name": "flexion", "limit_deg": 100.0, "reason": "contact", "band": BAND}
     for folder in (rom_folder(tmp_path / "range", motions=[banded]), map_folder(tmp_path / "map")):

@@ -144,9 +144,78 @@ def test_live_maps_are_drawn_as_files_are():
         column="flexion", row="adduction", vary="internal_rotation", column_deg=grid.columns_deg, row_deg=grid.rows_deg,
         start_deg=5.0, lower_deg=grid.lower_deg, upper_deg=grid.upper_deg,
         free_at_start=np.array([[True, True, False], [True, True, True]]), offset=np.array([0, 1, 2, 3, 5, 6, 7]),
-        negative=SimpleNamespace(reason=np.zeros((2, 3), np.int8)),
-        positive=SimpleNamespace(reason=np.array([[0, 1, 2], [0, 0, 0]], np.int8)))
+        ligaments=("front", "back"), negative=SimpleNamespace(reason=np.zeros((2, 3), np.int8), ligament=np.full((2, 3), -1)),
+        positive=SimpleNamespace(reason=np.array([[0, 1, 2], [3, 0, 3]], np.int8), ligament=np.array([[-1, -1, -1], [1, -1, 0]])))
     ax = figures.motion_map(live)
     said = ax.get_ylabel()
     assert said == "adduction (+) / abduction (−) (°)" or said.startswith("adduction (°, negative")
     assert {name: len(cells) for name, cells in hatched(ax).items()} == {"not_at_start": 1, "islands": 1, "open": 1}
+    of_ends = {name: len(cells) for name, cells in coloured(figures.map_ends(live)).items()}
+    assert of_ends == {"ligament front": 1, "ligament back": 1, "contact": 3, "end_of_range": 1}
+
+
+def coloured(ax):
+    """Gids of what ends the motion, with the boxes of their cells in data."""
+    kinds = ("ligament ", "contact", "end_of_range")
+    return {c.get_gid(): [p.get_extents().bounds for p in c.get_paths()] for c in ax.collections if (c.get_gid() or "").startswith(kinds)}
+
+
+def ended_by(names):
+    """A map whose upper ends are made by these; "" by contact."""
+    return plane()._replace(upper_ligament=np.array(names), lower_ligament=np.full((4, 5), ""))
+
+
+NAMES = [["back"] * 5, ["back", "front", "front", "", ""], [""] * 5, ["", "", "", "", "front"]]
+
+
+def test_what_ends_a_motion_has_a_colour_each_and_a_name():
+    grid = ended_by(NAMES)
+    ax = figures.map_ends(grid)
+    cells = coloured(ax)
+    assert list(cells) == ["ligament back", "ligament front", "contact"]
+    # Cells reach half way to the neighbours, and neighbours in a row are one.
+    assert cells["ligament back"] == [(0, -10, 40, 2.5), (0, -7.5, 5, 5)]
+    assert cells["ligament front"] == [(5, -7.5, 20, 5), (35, 2.5, 5, 2.5)]
+    area = sum(width * height for boxes in cells.values() for *_, width, height in boxes)
+    assert area == pytest.approx(40 * 15)
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["back", "front", "contact"]
+    faces = [tuple(patch.get_facecolor()) for patch in ax.get_legend().get_patches()]
+    assert len(set(faces)) == 3
+    by_gid = {c.get_gid(): tuple(c.get_facecolor()[0]) for c in ax.collections if c.get_gid() in cells}
+    assert faces == [by_gid[gid] for gid in cells]
+    assert "what ends internal rotation" in " ".join(text.get_text() for text in ax.texts).replace("\n", " ")
+    assert list(coloured(figures.map_ends(grid, "negative"))) == ["contact"]
+
+
+def test_a_ligament_has_one_colour_on_both_sides():
+    grid = ended_by(NAMES)._replace(lower_ligament=np.array([["front"] * 5] * 3 + [["back", "", "", "", ""]]))
+    looks = [{patch.get_label(): patch.get_facecolor() for patch in figures.map_ends(grid, side).get_legend().get_patches()}
+             for side in ("positive", "negative")]
+    assert looks[0]["front"] == looks[1]["front"] != looks[0]["back"] == looks[1]["back"]
+
+
+def test_many_ligaments_stay_apart_by_hatches():
+    names = np.array([f"band {i:02}" for i in range(20)]).reshape(4, 5)
+    legend = figures.map_ends(ended_by(names)).get_legend()
+    looks = {(tuple(patch.get_facecolor()), patch.get_hatch()) for patch in legend.get_patches()}
+    assert len(looks) == 20 and [text.get_text() for text in legend.get_texts()] == sorted(names.ravel())
+
+
+def test_ends_are_of_points_that_are_free():
+    grid = ended_by([["", "back", "back", "back", "back"]] + NAMES[1:])
+    nowhere = np.zeros((4, 5), dtype=bool)
+    nowhere[0, 0] = True
+    gone = np.where(nowhere, np.nan, grid.upper_deg)
+    ax = figures.map_ends(grid._replace(upper_deg=gone, intervals=np.where(nowhere, 0, 1)))
+    assert set(hatched(ax)) == {"nowhere"}
+    assert sum(width * height for boxes in coloured(ax).values() for *_, width, height in boxes) == pytest.approx(40 * 15 - 5 * 2.5)
+
+
+def test_what_has_no_ends_to_draw_is_refused():
+    grid = ended_by(NAMES)
+    with pytest.raises(ValueError, match="'up'"):
+        figures.map_ends(grid, "up")
+    with pytest.raises(ValueError, match="no point of the map is free"):
+        figures.map_ends(grid._replace(upper_deg=np.full((4, 5), np.nan)))
+    with pytest.raises(ValueError, match="no area"):
+        figures.map_ends(plane(rows=1))
