@@ -321,6 +321,20 @@ def test_a_map_names_the_ligament_of_each_end(file, command, tmp_path):
     assert 'Name="lower_ligament"' in vtp and 'Name="upper_ligament"' in vtp and 'Name="interval_low_ligament"' in vtp
 
 
+def test_a_study_counts_the_points_of_a_map_that_ligaments_end(file, command, tmp_path):
+    path = with_strings(file, TWO_ENDING)
+    (tmp_path / "hips.csv").write_text(f"id,joint\na,{path}\n")
+    subprocess.run([command, "study", tmp_path / "hips.csv", *GRID, "--out", tmp_path / "study"], check=True, capture_output=True)
+    subprocess.run([command, "rom", path, "--motion", "flexion", *GRID, "--out", tmp_path / "rom"], check=True, capture_output=True)
+    hip, = rows_of(tmp_path / "study" / "hips.csv")
+    points = rows_of(tmp_path / "rom" / "map.csv")
+    for end in ("lower", "upper"):
+        counts = {reason: int(hip[f"map_{end}_{reason}_points"]) for reason in condyle.REASONS}
+        assert counts == {reason: sum(point[f"{end}_reason"] == reason for point in points) for reason in condyle.REASONS}
+        assert sum(counts.values()) == int(hip["map_points"]) == len(points)
+    assert int(hip["map_lower_ligament_points"]) + int(hip["map_upper_ligament_points"]) > 0
+
+
 def test_a_load_moves_the_frames_so_that_their_speeds_are_not_those_of_the_file(command, sampled, tmp_path):
     folder = sampled(tmp_path / "cartilages", "cartilages", "--clearance", "-0.3")
     joint = folder / "cartilages.toml"

@@ -1,5 +1,6 @@
-"""Limits written into a copy of a model: what must not be written, and what is written again."""
+"""Limits written for other programs: what must not be written, and what is written again."""
 
+import csv
 import os
 import re
 import subprocess
@@ -7,14 +8,16 @@ from pathlib import Path
 
 import pytest
 
+import condyle
+
 DATA = Path(os.environ.get("CONDYLE_DATA", "../shared/data"))
 MODEL = DATA / "osim_gait2354" / "gait2354_simbody.osim"
-
-pytestmark = pytest.mark.skipif(not MODEL.exists(), reason="no gait2354 in CONDYLE_DATA")
 
 
 @pytest.fixture(scope="module")
 def joint(command, tmp_path_factory):
+    if not MODEL.exists():
+        pytest.skip("no gait2354 in CONDYLE_DATA")
     path = tmp_path_factory.mktemp("limits") / "hip.toml"
     subprocess.run([command, "init", MODEL, "--joint", "hip_r", "-o", path], check=True, capture_output=True)
     return path
@@ -64,3 +67,27 @@ def test_a_model_whose_coordinate_has_another_sense_is_refused(command, joint, t
 def test_a_file_in_the_folder_of_out_is_refused(command, joint, tmp_path):
     done = written(command, joint, tmp_path / "limits.csv", "--out", tmp_path)
     assert done.returncode == 2 and "would lie in the folder of --out" in done.stderr
+
+
+def test_half_a_grid_is_refused(hip_file, tmp_path):
+    rom = condyle.read_joint(hip_file).range_of_motion([])
+    grid = {"column": {"flexion": (0, 90, 45)}, "row": {"adduction": (-10, 10, 10)}}
+    for half in ({"column": grid["column"]}, {"row": grid["row"]}, {"vary": "internal_rotation"}):
+        with pytest.raises(condyle.UsageError, match="column and row are given together"):
+            rom.write_limits(tmp_path / "hip.xml", **half)
+    assert not (tmp_path / "hip.xml").exists()
+    assert rom.write_limits(tmp_path / "hip.xml", **grid, vary="internal_rotation")["error"]["points"] == 9
+
+
+def test_names_of_coordinates_are_fields_of_a_table(hip_file, command, tmp_path):
+    names = {"flexion": 'bend, "forwards"', "adduction": "tilt,", "internal_rotation": "turn"}
+    path = tmp_path / "hip.toml"
+    folder = str(hip_file).rsplit("/", 1)[0]
+    path.write_text(hip_file.read_text().replace('mesh = "', f'mesh = "{folder}/') + "\n[recorded_motion]\n" +
+                    "".join(f"{angle} = '{name}'\n" for angle, name in names.items()))
+    done = written(command, path, tmp_path / "coupled.csv", "--map", "flexion=0:90:45", "adduction=-10:10:10")
+    assert done.returncode == 0, done.stderr
+    first, *rows = csv.reader(line for line in open(tmp_path / "coupled.csv") if not line.startswith("#"))
+    assert first == [f"{names['flexion']}_deg", f"{names['adduction']}_deg",
+                     *(f"{names['internal_rotation']}_{end}" for end in ("lower_deg", "upper_deg", "lower_reason", "upper_reason"))]
+    assert len(rows) == 9 and all(len(row) == len(first) for row in rows)
