@@ -2,8 +2,12 @@
 
 import csv
 import json
+import os
 import pickle
+import re
 import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -333,6 +337,40 @@ def test_a_study_counts_the_points_of_a_map_that_ligaments_end(file, command, tm
         assert counts == {reason: sum(point[f"{end}_reason"] == reason for point in points) for reason in condyle.REASONS}
         assert sum(counts.values()) == int(hip["map_points"]) == len(points)
     assert int(hip["map_lower_ligament_points"]) + int(hip["map_upper_ligament_points"]) > 0
+
+
+DATA = Path(os.environ.get("CONDYLE_DATA", "../shared/data"))
+KNEE = DATA / "osim_lenhart2015"
+
+
+@pytest.mark.skipif(not (KNEE / "make_geometry.py").exists(), reason="no published knee in CONDYLE_DATA")
+def test_without_its_anterior_cruciate_a_knee_goes_farther_and_strains_what_is_left(command, tmp_path):
+    subprocess.run([sys.executable, KNEE / "make_geometry.py", tmp_path / "Geometry"], check=True, capture_output=True)
+
+    def without(*names):
+        """Of the published model, made into a joint: ligaments whose names begin so are taken out of it."""
+        pattern = rf'<Blankevoort1991Ligament name="(?:{"|".join(names)})[^"]*">.*?</Blankevoort1991Ligament>'
+        text, count = re.subn(pattern, "", (KNEE / "lenhart2015.osim").read_text(), flags=re.S)
+        assert count
+        model = tmp_path / f"without_{'_'.join(names)}.osim"
+        model.write_text(text)
+        subprocess.run([command, "init", model, "--joint", "knee_r", "-o", model.with_suffix(".toml")], check=True, capture_output=True)
+        said = subprocess.run([command, "load", model.with_suffix(".toml"), "--pose", "flexion=10", "--force", "50", "0", "0", "--ligaments",
+                               "--json"], check=True, capture_output=True)
+        found = json.loads(said.stdout)
+        assert found["balance"]["outcome"] == "balanced"
+        return found["balance"]["moved_mm"][0], {each["name"]: each for each in found["ligaments"]}
+
+    # Over an ellipsoid the superficial medial and the oblique ligament have no length.
+    moved, strings = without("MCLs", "MCLp")
+    farther, left = without("MCLs", "MCLp", "ACL")
+    assert set(strings) - set(left) == {name for name in strings if name.startswith("ACL")} and len(left) == 32
+    assert farther > moved + 5
+    # What else holds the tibia back: the deep medial ligament and the capsule behind.
+    for name in left:
+        if name.startswith(("MCLd", "pCAP")):
+            assert left[name]["strain"] > strings[name]["strain"], name
+    assert sum(each["tension_n"] for each in left.values()) > 2 * sum(strings[name]["tension_n"] for name in left)
 
 
 def test_a_load_moves_the_frames_so_that_their_speeds_are_not_those_of_the_file(command, sampled, tmp_path):
