@@ -396,6 +396,29 @@ TEST(Slide, OfARodInADuctIsItsClosedForm) {
   }
 }
 
+TEST(Slide, AlongAFaceEndsWhereItsEdgesDo) {
+  // A wedge whose top is a triangle, its slant on y = x, and a box whose top is level with it. Turned, top and slide are parallel to
+  // rounding only, and the tops are seen as slivers: the box's corner at y = 1 meets the slant at x = 1, and its back leaves the wedge
+  // at x = 10.
+  TriMesh wedge;
+  for (const double z : {0.0, 5.0})
+    for (const Vec3& p : {Vec3(0, 0, z), Vec3(10, 0, z), Vec3(10, 10, z)}) wedge.vertices.push_back(p);
+  wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  std::mt19937 random(29);
+  for (const double top : {5.0, 6.0})
+    for (int k = 0; k < 200; ++k) {
+      const TriMesh block = box({-21, 1, top - 2}, {-19, 2, top});
+      const Pose X = random_pose(random, 0);
+      const motion::FreeSlides free =
+          answer_slide(posed(X, wedge), posed(X, block), {.along = X.linear().col(0)}).free;
+      ASSERT_EQ(free.intervals.size(), 2u) << k;
+      EXPECT_NEAR(*free.positive.at_mm, 20, 1e-12) << k;
+      EXPECT_NEAR(*free.intervals[1].low.at_mm, 31, 1e-12) << k;
+      EXPECT_LT(free.positive.error_bound_mm, 1e-12) << k;
+      EXPECT_LT(free.intervals[1].low.error_bound_mm, 1e-12) << k;
+    }
+}
+
 /// Positions of contact of all pairs of triangles are what exact tests beside every end say.
 TEST(Slide, OfRandomTrianglesMissesNoContactAndInventsNone) {
   std::mt19937 random(5);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/pair.hpp"
 #include "core/predicates.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/vertical_ray.hpp"
@@ -84,16 +85,27 @@ SeenHeight height_between(double a, double b, double n, double n_error, double d
                  4 * rounding_unit * std::max(std::abs(a), std::abs(b))};
 }
 
-/// (a - o) x (b - o) seen along z, and its error.
+/// Terms of a product that leave less than this share of them have lost digits: a face that the direction lies in is seen as a sliver,
+/// and heights on it are quotients of such products.
+constexpr double cancelled_share = 0x1p-6;
+
+/// A product of differences that is computed in pairs of doubles is off by less than this share of its terms.
+constexpr double pair_rounding = 0x1p-98;
+
+/// (a - o) x (b - p) seen along z, and its error.
 struct SeenProduct {
   double value, error;
-  SeenProduct(const Vec3& o, const Vec3& a, const Vec3& b) noexcept
-      : SeenProduct((a.x() - o.x()) * (b.y() - o.y()), (a.y() - o.y()) * (b.x() - o.x())) {}
-  SeenProduct(const Vec3& a, const Vec3& b) noexcept : SeenProduct(a.x() * b.y(), a.y() * b.x()) {}
-
- private:
-  SeenProduct(double ab, double ba) noexcept
-      : value(ab - ba), error(6 * rounding_unit * (std::abs(ab) + std::abs(ba))) {}
+  SeenProduct(const Vec3& o, const Vec3& a, const Vec3& b) noexcept : SeenProduct(o, a, o, b) {}
+  SeenProduct(const Vec3& o, const Vec3& a, const Vec3& p, const Vec3& b) noexcept {
+    const double ab = (a.x() - o.x()) * (b.y() - p.y()), ba = (a.y() - o.y()) * (b.x() - p.x());
+    const double terms = std::abs(ab) + std::abs(ba);
+    value = ab - ba, error = 6 * rounding_unit * terms;
+    if (!(std::abs(value) < cancelled_share * terms)) return;
+    const auto between = [](double from, double to) { return core::exact_sum(to, -from); };
+    const core::Pair exact =
+        between(o.x(), a.x()) * between(p.y(), b.y()) - between(o.y(), a.y()) * between(p.x(), b.x());
+    value = exact.high, error = rounding_unit * std::abs(value) + pair_rounding * terms;
+  }
 };
 
 /// Of the triangle below or above p, which it holds as seen.
@@ -173,7 +185,7 @@ class PairContact {
     if (at_r == Sign::zero || at_p == Sign::zero || orientation_2d(p, q, s) != -at_r ||
         orientation_2d(r, s, q) != -at_p)
       return;
-    const SeenProduct across(q - p, s - r), of_p(r - p, s - r), of_r(r - p, q - p);
+    const SeenProduct across(p, q, r, s), of_p(p, r, r, s), of_r(p, r, q);
     const SeenHeight fixed = height_between(p.z(), q.z(), of_p.value, of_p.error, across.value, across.error);
     const SeenHeight mobile =
         height_between(r.z(), s.z(), of_r.value, of_r.error, across.value, across.error);
@@ -241,6 +253,7 @@ void add_probed(const PlacedBody& probing, const PlacedBody& closed, double sens
   for (std::size_t v = 0; v < vertices.size(); v += step) {
     const Vec3& p = vertices[v];
     std::vector<Crossing> crossings;
+    bool is_sure = true;  // or even the order of the crossings may be another
     std::vector<Index> open = {0};
     while (!open.empty()) {
       const Node& node = closed.tree.nodes()[open.back()];
@@ -253,10 +266,14 @@ void add_probed(const PlacedBody& probing, const PlacedBody& closed, double sens
       }
       for (Index t = node.first; t < node.last; ++t) {
         const TriangleCorners corners = closed.tree.corners(t);
-        if (const int crossed = mesh::vertical_crossing(corners, p); crossed != 0)
-          crossings.push_back({height_at(corners, p).z, crossed});
+        if (const int crossed = mesh::vertical_crossing(corners, p); crossed != 0) {
+          const SeenHeight at = height_at(corners, p);
+          crossings.push_back({at.z, crossed});
+          is_sure &= at.error < slack;
+        }
       }
     }
+    if (!is_sure) continue;
     std::sort(crossings.begin(), crossings.end(),
               [](const Crossing& a, const Crossing& b) { return a.z < b.z; });
     int winding = 0;  // a line from below enters where normals point down

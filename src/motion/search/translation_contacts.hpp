@@ -31,7 +31,7 @@ struct TranslationContact {
 ///            t   |_\         The set is the union over all pairs of triangles.
 ///
 /// Whether they overlap as seen is decided exactly for coordinates rounded once into the frame of the direction (AxisFrame); each end is
-/// widened by what its arithmetic rounds, some 1e-15 of the coordinates for triangles that are no slivers as seen. No contact is missed,
+/// widened by what its arithmetic rounds, some 1e-15 of the coordinates, of triangles that the direction lies in too. No contact is missed,
 /// touching counts, gaps narrower than the widening are none. Triangles of zero area meet nothing. Surfaces only: a body wholly inside the
 /// other without meeting its surface is free here.
 std::vector<TranslationContact> translation_contacts(const Mesh& fixed, const Mesh& mobile_in_F,
