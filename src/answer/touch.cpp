@@ -192,33 +192,28 @@ class Touch {
           last = along;
         }
         if (is_opposite)
-          std::for_each(slides->intervals.rbegin(), slides->intervals.rend(), FirstFree{free, -1, slack()});
+          std::for_each(slides->intervals.rbegin(), slides->intervals.rend(), FirstFree{free, -1});
         else
-          std::for_each(slides->intervals.begin(), slides->intervals.end(), FirstFree{free, 1, slack()});
+          std::for_each(slides->intervals.begin(), slides->intervals.end(), FirstFree{free, 1});
       }
       answer_.free.push_back(free);
     }
   }
 
-  /// Takes the first interval, of those that are given in the order of a sense, that goes on beyond the start. Placing in the frame of
-  /// a direction rounds: of bodies that touch it may leave a gap that is no wider than that.
+  /// Takes the first interval, of those that are given in the order of a sense, that goes on beyond the start.
   struct FirstFree {
     FreeTranslation& free;
-    double sense, slack;
+    double sense;
     bool is_found = false;
 
     void operator()(const motion::FreeSlide& each) {
       const motion::SlideEnd &from = sense > 0 ? each.low : each.high, &to = sense > 0 ? each.high : each.low;
-      if (is_found || (to.at_mm && sense * *to.at_mm <= slack)) return;
+      if (is_found || (to.at_mm && sense * *to.at_mm <= 0)) return;
       is_found = true;
       if (!from.at_mm || sense * *from.at_mm <= 0) return;
       free.distance_mm = sense * *from.at_mm, free.error_bound_mm = from.error_bound_mm;
     }
   };
-  double slack() const {
-    return 1e-13 *
-           static_cast<double>(pair_.fixed_tree().nodes()[0].size() + pair_.mobile_tree().nodes()[0].size());
-  }
 
   const contact::JointContact& bodies_;
   const contact::BodyPair& pair_;

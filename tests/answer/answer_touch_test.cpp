@@ -419,6 +419,39 @@ TEST(Slide, AlongAFaceEndsWhereItsEdgesDo) {
     }
 }
 
+TEST(Touch, BeginsSlidesAndTurnsInContact) {
+  // Frames of oblique directions and axes round the coordinates of both, and may part them.
+  const TriMesh cube = box({-1, -1, -1}, {1, 1, 1});
+  const contact::BodyPair pair(cube, cube);
+  std::mt19937 random(31);
+  std::uniform_int_distribution<int> whole(-3, 3);
+  const auto any = [&] { return Vec3(whole(random), whole(random), whole(random)); };
+  for (int k = 0; k < 300; ++k) {
+    const Pose X_FM = at(Vec3(2, whole(random) / 2.0, whole(random) / 2.0));
+    Vec3 along = any();
+    if (along.isZero()) along.x() = 1;
+    ASSERT_TRUE(pair.touch(X_FM));
+    const motion::FreeSlides slides = answer_slide(cube, cube, {.along = along, .X_FM = X_FM}).free;
+    EXPECT_FALSE(slides.free_at_start) << k;
+    EXPECT_EQ(*slides.positive.at_mm, 0) << k;
+    for (const motion::FreeSlide& each : slides.intervals)
+      EXPECT_TRUE((each.low.at_mm && *each.low.at_mm > -1e-14) ||
+                  (each.high.at_mm && *each.high.at_mm < 1e-14))
+          << k;
+    const motion::FreeAngles turns =
+        answer_turn(cube, cube, {.axis = along, .centre = any(), .X_FM = X_FM}).free;
+    EXPECT_EQ(turns.from_start.negative.reason, motion::LimitReason::contact_at_start) << k;
+    EXPECT_EQ(turns.from_start.positive.turned.degrees(), 0) << k;
+    ASSERT_TRUE(turns.from_start.positive.contact) << k;
+    EXPECT_NEAR(turns.from_start.positive.contact->fixed_point.x(), 1, 1e-12) << k;
+    for (const motion::FreeInterval& each : turns.intervals) {
+      EXPECT_GE(each.low.degrees(), -1e-9) << k;
+      EXPECT_LE(each.high.degrees(), 360 + 1e-9) << k;
+      EXPECT_GT((each.high - each.low).degrees(), 0) << k;
+    }
+  }
+}
+
 /// Positions of contact of all pairs of triangles are what exact tests beside every end say.
 TEST(Slide, OfRandomTrianglesMissesNoContactAndInventsNone) {
   std::mt19937 random(5);

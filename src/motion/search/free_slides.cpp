@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "condyle/first_contact.hpp"
 #include "contact/body_pair.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/ordered_sums.hpp"
+#include "motion/search/start_contact.hpp"
 #include "motion/search/translation_contacts.hpp"
 
 namespace condyle::motion {
@@ -13,6 +15,15 @@ namespace {
 Pose slid(Pose X, const Vec3& by) {
   X.translation() += by;
   return X;
+}
+
+/// What placing both bodies in one frame and then in another may part them by.
+double rounding_of_frames(const contact::BodyPair& bodies, const Pose& X_FM) {
+  double size = X_FM.translation().cwiseAbs().maxCoeff();
+  for (const mesh::TriangleTree* tree : {&bodies.fixed_tree(), &bodies.mobile_tree()})
+    for (int k = 0; k < 3; ++k)
+      size += std::abs(double(tree->nodes()[0].centre[k])) + tree->nodes()[0].half[k];
+  return 1e-14 * size;
 }
 
 /// Of a free interval; `at` ends the contact beside it.
@@ -43,6 +54,14 @@ FreeSlides free_slides(const Mesh& fixed, const Mesh& mobile, const Vec3& direct
         bodies.touch(slid(X_FM, along * (*gap.low.at_mm + (*gap.high.at_mm - *gap.low.at_mm) / 2))))
       continue;
     if (!(gap.low.at_mm && *gap.low.at_mm >= 0) && !(gap.high.at_mm && *gap.high.at_mm <= 0)) {
+      if (const auto touching = faces_touching(bodies, fixed, mobile, X_FM)) {
+        const SlideEnd start{0.0, 0, touching};
+        const double narrowest = rounding_of_frames(bodies, X_FM);
+        for (const FreeSlide& part : {FreeSlide{gap.low, start}, FreeSlide{start, gap.high}})
+          if (!part.low.at_mm || !part.high.at_mm || *part.high.at_mm - *part.low.at_mm > narrowest)
+            slides.intervals.push_back(part);
+        continue;
+      }
       slides.free_at_start = true;
       slides.negative = gap.low, slides.positive = gap.high;
     }

@@ -1,10 +1,12 @@
 #include <algorithm>
 
 #include "condyle/first_contact.hpp"
+#include "contact/body_pair.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/rotation_about.hpp"
 #include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
+#include "motion/search/start_contact.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -20,9 +22,26 @@ Pose turned_about(const AxisFrame& axis, Angle by, const Pose& X) {
   return turned;
 }
 
-}  // namespace
+/// Ends the interval that holds the start there, as bodies that touch do.
+void touch_at_start(const ContactWitness& touching, FreeAngles& free) {
+  const Limit start{.reason = LimitReason::contact_at_start, .contact = touching};
+  const Angle turn = Angle::degrees(360);
+  FreeInterval before = free.intervals.front(), after = before;
+  if (free.from_start.positive.reason == LimitReason::end_of_range) {
+    free.intervals = {{Angle(), turn, start, start}};
+  } else {
+    free.intervals.erase(free.intervals.begin());
+    before.low = before.low + turn, before.high = turn, before.at_high = start;
+    after.low = Angle(), after.at_low = start;
+    if (after.high > narrowest_turn) free.intervals.insert(free.intervals.begin(), after);
+    if (turn - before.low > narrowest_turn) free.intervals.push_back(before);
+  }
+  free.from_start.negative = free.from_start.positive = start;
+}
 
-FreeAngles free_turns(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F, const Pose& X_FM) {
+/// Of vertices as they are rounded into the frame of the axis.
+FreeAngles free_turns_in_its_frame(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F,
+                                   const Pose& X_FM) {
   core::require_rotation(X_FM);
   const FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   const RotationTable table(fixed_tree, axis_F);
@@ -52,6 +71,16 @@ FreeAngles free_turns(const Mesh& fixed, const Mesh& mobile, const AxisFrame& ax
   }
   std::sort(free.intervals.begin(), free.intervals.end(),
             [](const FreeInterval& a, const FreeInterval& b) { return a.low < b.low; });
+  return free;
+}
+
+}  // namespace
+
+FreeAngles free_turns(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F, const Pose& X_FM) {
+  FreeAngles free = free_turns_in_its_frame(fixed, mobile, axis_F, X_FM);
+  if (!free.from_start.free_at_start()) return free;
+  if (const auto touching = faces_touching(contact::BodyPair(fixed, mobile), fixed, mobile, X_FM))
+    touch_at_start(*touching, free);
   return free;
 }
 

@@ -102,6 +102,21 @@ std::optional<ContactWitness> faces_in_contact_at_start(Stationary& stationary, 
   return std::nullopt;
 }
 
+std::optional<ContactWitness> faces_touching(const contact::BodyPair& bodies, const Mesh& fixed,
+                                             const Mesh& mobile, const Pose& X_FM) {
+  std::optional<contact::TrianglePair> pair;
+  if (!bodies.touch(X_FM, pair) || !pair) return std::nullopt;
+  const auto corners = [](const Mesh& mesh, Index triangle) {
+    const auto& [a, b, c] = mesh.triangles()[triangle];
+    return mesh::TriangleCorners{mesh.vertices()[a], mesh.vertices()[b], mesh.vertices()[c]};
+  };
+  mesh::TriangleCorners of_mobile = corners(mobile, pair->mobile);
+  for (Vec3& p : of_mobile) p = posed(X_FM, p);
+  const Vec3 p = common_point(corners(fixed, pair->fixed), of_mobile);
+  return ContactWitness{
+      {FeatureKind::face, pair->fixed}, {FeatureKind::face, pair->mobile}, p, posed(inverted(X_FM), p)};
+}
+
 template <class Stationary>
 bool one_inside_other_at_start(Stationary& stationary, RotatingBody& rotating) {
   const FeatureTree &mt = rotating.tree(), &ft = stationary.tree();
