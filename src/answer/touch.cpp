@@ -8,12 +8,15 @@
 #include "contact/deepest_place.hpp"
 #include "contact/overlap.hpp"
 #include "core/coordinate_range.hpp"
+#include "core/formatted.hpp"
 #include "core/lazy.hpp"
 #include "core/ordered_sums.hpp"
 #include "core/parallel.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/findings.hpp"
+#include "mesh/surface_pieces.hpp"
 #include "mesh/surface_to_surface.hpp"
+#include "mesh/triangle_intersection.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/winding_number.hpp"
 
@@ -23,7 +26,11 @@ namespace {
 /// Kept with the mesh, which may be asked at many poses.
 struct KeptVolume {
   core::Lazy<double> volume;
+  core::Lazy<std::optional<Index>> inverted_piece;
 };
+
+/// A flat piece has no more volume than this share of its area times its width: rounding.
+constexpr double flat_share = 1e-9;
 
 /// What a closed mesh encloses; nothing of an open one.
 std::optional<double> volume_of(const Mesh& mesh) {
@@ -40,6 +47,17 @@ void prepare(const contact::JointContact& bodies) {
   core::parallel_pair(of(bodies.fixed()), of(bodies.mobile()));
 }
 
+/// The first triangle of a closed piece that is inside out and lies in no other, as the wall of a cavity rightly does.
+std::optional<Index> inverted_piece(const Mesh& mesh) {
+  return mesh::findings_of(mesh).get<KeptVolume>().inverted_piece.get([&](std::optional<Index>& first) {
+    if (mesh::tree_of(mesh)->one_vertex_of_each_piece().size() < 2) return;
+    for (const mesh::SurfacePiece& piece : mesh::pieces_of(mesh).all)
+      if (!first && piece.is_closed && !piece.is_inner() &&
+          piece.signed_volume < -flat_share * piece.area * piece.width())
+        first = piece.first_triangle;
+  });
+}
+
 /// Whether a mesh has an inside that means one: closed, its normals outwards. Notes why not.
 bool is_solid(const Mesh& mesh, BodyRole role, std::vector<JointNote>& notes) {
   const std::optional<double> volume = volume_of(mesh);
@@ -52,14 +70,32 @@ bool is_solid(const Mesh& mesh, BodyRole role, std::vector<JointNote>& notes) {
     notes.push_back({JointNoteCode::inverted_mesh,
                      body + " is inside out, its volume is negative: nothing counts as inside of it; the "
                             "repair flip_inverted turns it"});
-  else
+  else {
+    if (const auto first = inverted_piece(mesh))
+      notes.push_back({JointNoteCode::inverted_mesh,
+                       core::formatted("%s has a piece that is inside out, that of triangle %u: nothing "
+                                       "counts as inside of that piece",
+                                       body.c_str(), *first)});
     return true;
+  }
   return false;
 }
 
-void require_triangles(const Mesh& fixed, const Mesh& mobile) {
-  if (fixed.triangles().empty()) throw MeshError("the fixed body has no triangle");
-  if (mobile.triangles().empty()) throw MeshError("the mobile body has no triangle");
+/// A triangle without area meets nothing, as its points belong to its neighbours: a body of such triangles only would be apart from all.
+void require_surface(const Mesh& mesh, const std::string& body) {
+  if (mesh.triangles().empty()) throw MeshError(body + " has no triangle");
+  const auto has_area = [&](const Triangle& t) {
+    const mesh::TriangleCorners corners = {mesh.vertices()[t[0]], mesh.vertices()[t[1]],
+                                           mesh.vertices()[t[2]]};
+    return mesh::contains_coplanar(corners, corners[0]);  // without an area it contains nothing
+  };
+  if (std::none_of(mesh.triangles().begin(), mesh.triangles().end(), has_area))
+    throw MeshError(body + " has no triangle with an area");
+}
+
+void require_surfaces(const Mesh& fixed, const Mesh& mobile) {
+  require_surface(fixed, "the fixed body");
+  require_surface(mobile, "the mobile body");
 }
 
 void require_direction(const Vec3& direction, const char* name) {
@@ -68,7 +104,7 @@ void require_direction(const Vec3& direction, const char* name) {
 }
 
 std::vector<JointNote> notes_of(const Mesh& fixed, const Mesh& mobile) {
-  require_triangles(fixed, mobile);
+  require_surfaces(fixed, mobile);
   std::vector<JointNote> notes;
   is_solid(fixed, BodyRole::fixed, notes);
   is_solid(mobile, BodyRole::mobile, notes);
@@ -224,7 +260,7 @@ class Touch {
 }  // namespace
 
 TouchAnswer answer_touch(const contact::JointContact& bodies, const TouchRequest& request) {
-  require_triangles(bodies.fixed(), bodies.mobile());
+  require_surfaces(bodies.fixed(), bodies.mobile());
   core::require_rotation(request.X_FM);
   for (const Vec3& along : request.along) require_direction(along, "along");
   prepare(bodies);

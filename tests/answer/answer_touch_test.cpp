@@ -277,6 +277,15 @@ TEST(Touch, OfSurfacesWithoutAnInsideAnswersForTheSurfaces) {
   ASSERT_TRUE(inverted.deepest);  // of the inverted body's surface in the other
   EXPECT_NEAR(inverted.deepest->depth_mm, 1, 1e-10);
 
+  // Only a piece is inside out, which no other holds.
+  const TouchAnswer partly =
+      touch(joined(solid, flipped(box({5, -1, -1}, {8, 1, 1}))), box({6, 0, 0}, {7, 0.5, 0.5}));
+  EXPECT_FALSE(partly.in_contact);
+  ASSERT_EQ(partly.notes.size(), 1u);
+  EXPECT_EQ(partly.notes[0].code, JointNoteCode::inverted_mesh);
+  EXPECT_NE(partly.notes[0].text.find("that of triangle 12"), std::string::npos) << partly.notes[0].text;
+  EXPECT_TRUE(touch(joined(solid, flipped(box({-1, -1, -1}, {1, 1, 1}))), solid).notes.empty());
+
   const TouchAnswer crossed = touch(joined(solid, posed(at({1, 0, 0}), solid)), box({1, -1, -1}, {5, 1, 1}));
   EXPECT_GT(crossed.overlap->fixed_covered_again_mm3, 1);
 }
@@ -299,6 +308,13 @@ TEST(Touch, RefusesWhatIsNoPoseDirectionOrMesh) {
   EXPECT_THROW(answer_touch(cube, TriMesh(), {}), MeshError);
   EXPECT_THROW(answer_turn(TriMesh(), cube, {}), MeshError);
   EXPECT_THROW(answer_slide(cube, TriMesh(), {}), MeshError);
+  // Nothing but triangles without area, which meet nothing, would be apart from what it goes through.
+  TriMesh needle;
+  for (const double x : {-3.0, 3.0, 0.0}) needle.vertices.push_back({x, 0.25, 0.5});
+  needle.triangles = {{0, 1, 2}};
+  EXPECT_THROW(answer_touch(cube, needle, {}), MeshError);
+  EXPECT_THROW(answer_turn(needle, cube, {}), MeshError);
+  EXPECT_THROW(answer_slide(cube, needle, {}), MeshError);
 }
 
 // ---- turn and slide
