@@ -22,6 +22,14 @@ function(condyle_wasm_objects target level)
   target_compile_options(${target} PRIVATE ${level} -ffp-contract=off -msimd128 -msse2 -mnontrapping-fptoint -fwasm-exceptions -include missing.hpp
                          # The same bytes whatever the folder: sources name themselves in messages.
                          -ffile-prefix-map=${CMAKE_BINARY_DIR}/= -ffile-prefix-map=${condyle_root}/=)
+  # A number that goes into a vector is loaded where the source has it (0033).
+  set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${condyle_root}/cmake/frozen_lanes.py)
   target_compile_definitions(${target} PRIVATE CONDYLE_THREADS_NONE HWY_COMPILE_ONLY_EMU128 FMT_HEADER_ONLY NDEBUG)
   condyle_unify(${target} ${condyle_root}/src)
+endfunction()
+
+# Refuses a program that has the instruction which the compiler may misplace.
+function(condyle_refuse_splat_loads target)
+  add_custom_command(TARGET ${target} POST_BUILD VERBATIM
+                     COMMAND ${condyle_root}/cmake/refuse_splat_loads.sh $<PATH:REPLACE_EXTENSION,$<TARGET_FILE:${target}>,wasm>)
 endfunction()
