@@ -69,6 +69,17 @@ TEST_F(TouchCommand, SaysWhatHasNoInside) {
   EXPECT_NE(open.out.find("in contact"), std::string::npos);
 }
 
+TEST_F(TouchCommand, SaysWhatItsVolumeCountsTwice) {
+  io::write_mesh(here / "twice.ply",
+                 joined(box({-10, -10, -10}, {10, 10, 10}), box({5, -5, -5}, {11, 5, 5})));
+  // Beside where the body crosses itself, and then with 6 x 6 x 5.25 of b in its first box and 5 x 6 x 5.25 in its second too.
+  const Ran beside = run("touch twice.ply b.ply --matrix down.txt --measures");
+  EXPECT_EQ(beside.out.find("more than once"), std::string::npos) << beside.out;
+  const Ran within = run("touch twice.ply b.ply --pose \"1 0 0 7 0 1 0 0 0 0 1 -14 0 0 0 1\" --measures");
+  EXPECT_NE(within.out.find("penetration volume: 346.5 mm3"), std::string::npos) << within.out;
+  EXPECT_NE(within.out.find("twice.ply covers "), std::string::npos) << within.out;
+}
+
 TEST_F(TouchCommand, TurnsAndSlides) {
   const Json slide = json("slide a.ply b.ply --along 0 0 -2");
   EXPECT_EQ(slide["along"], Json({0, 0, -1}));

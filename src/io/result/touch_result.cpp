@@ -131,6 +131,16 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
   if (record.volume_mm3)
     text += fmt::format("  penetration volume: {:.6g} mm3, off by {:.1g} at most\n", *record.volume_mm3,
                         *record.volume_error_mm3);
+  const auto add_again = [&](const std::filesystem::path& path, const std::optional<double>& again) {
+    if (again.value_or(0) > 0)
+      text += fmt::format(
+          "    {} covers {:.3g} mm3 about the overlap more than once, where it crosses itself or has a "
+          "component "
+          "in another: the volume may count space there twice\n",
+          path.string(), *again);
+  };
+  add_again(files.fixed.path, record.fixed_covered_again_mm3);
+  add_again(files.mobile.path, record.mobile_covered_again_mm3);
   if (record.fixed_area_mm2)
     text += fmt::format("  surface of {} inside: {:.6g} mm2\n", files.fixed.path.string(),
                         *record.fixed_area_mm2);
