@@ -140,6 +140,19 @@ std::vector<std::string> arguments(std::vector<std::string> words) {
   return words;
 }
 
+/// A name that is empty is mostly a variable of the shell that is not set, and would be taken for an option that is not given.
+void refuse_empty_names(CLI::App& command) {
+  const auto why_not = [](const std::string& name) {
+    return std::string(name.empty() ? "a name is needed, and this one is empty" : "");
+  };
+  for (CLI::Option* option : command.get_options()) {
+    const std::string& value = option->get_option_text();
+    if (option->get_positional() || value.starts_with("FILE") || value.starts_with("FOLDER"))
+      option->check(why_not);
+  }
+  for (CLI::App* below : command.get_subcommands(nullptr)) refuse_empty_names(*below);
+}
+
 /// In the order of the help.
 struct Command {
   std::string_view name;
@@ -187,6 +200,7 @@ int run(const std::vector<std::string>& words) {
     named->add(app);
   else
     for (const Command& command : commands) command.add(app);
+  refuse_empty_names(app);
 
   try {
     app.parse(reversed);

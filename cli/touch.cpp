@@ -25,7 +25,8 @@ namespace condyle::cli {
 namespace {
 
 struct TwoMeshes {
-  std::string fixed, mobile, pose, matrix, out;
+  std::string fixed, mobile, matrix, out;
+  std::optional<std::string> pose;
   std::optional<io::PolygonRule> polygons;
   std::optional<LengthUnit> units;
   std::vector<double> along, axis, centre = {0, 0, 0};
@@ -57,7 +58,7 @@ io::TouchMesh read_touch_mesh(const std::string& path, const TwoMeshes& options)
 
 io::PoseArgument placing_of(const TwoMeshes& options) {
   if (options.matrix.empty())
-    return options.pose.empty() ? io::PoseArgument{{}, Pose::Identity()} : io::matrix_pose(options.pose);
+    return options.pose ? io::matrix_pose(*options.pose) : io::PoseArgument{{}, Pose::Identity()};
   const std::string bytes = io::read_whole_file(options.matrix);
   try {
     return io::matrix_pose(io::without_comments({bytes, options.matrix}));

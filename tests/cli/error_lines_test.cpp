@@ -178,7 +178,15 @@ TEST_F(ErrorLines, OfAnOutputThatCannotBeBeginWithItsName) {
                 longer + ".png: cannot be written: File name");
   expect_begins("report --empty --out " + longer, 3, longer + ": cannot be written: File name too long");
   expect_begins("init post.ply arm.ply --out " + longer, 3, longer + ": cannot be written: File name");
-  expect_begins("report --empty --out ''", 3, "output file: no name given");
+}
+
+TEST_F(ErrorLines, OfAnEmptyNameNameItsOption) {
+  expect_begins("report --empty --out ''", 2, "report: --out: a name is needed, and this one is empty");
+  expect_begins("touch arm.ply post.ply --matrix ''", 2, "touch: --matrix: a name is needed");
+  expect_begins("touch arm.ply post.ply --pose ''", 2, "pose: a matrix begins with a number");
+  expect_begins("touch '' post.ply", 2, "touch: A: a name is needed");
+  expect_begins("sample hip --out ''", 2, "hip: --out: a name is needed");
+  expect_begins("rom arm.toml --write-limits ''", 2, "rom: --write-limits: a name is needed");
 }
 
 }  // namespace
