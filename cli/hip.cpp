@@ -356,7 +356,6 @@ void add_hip(CLI::App& app) {
       "\"fadir=+10\" --out "
       "planned\n"
       "Each femur has the half of the pelvis beside it. What was assumed stands in hip.toml. "
-      "and stands in hip.toml. "
       "Figures and sheets need Python with matplotlib.");
   auto options = std::make_shared<HipArguments>();
   options->range.band.samples = BandRequest{}.samples;
