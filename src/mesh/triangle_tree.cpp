@@ -102,9 +102,11 @@ struct Extent {
 /// The nearest point of a triangle is at most (longest edge) / sqrt(3) from its nearest corner and a right
 /// angle off: |p|^2 >= min^2 - longest^2 / 3. The squares' roundings are below 16 u max^2.
 Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
-  const auto [min, max] = std::minmax({t[0].squaredNorm(), t[1].squaredNorm(), t[2].squaredNorm()});
-  const double longest =
-      std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+  // Of pairs: a list of three would be stored and read again.
+  const double a = t[0].squaredNorm(), b = t[1].squaredNorm(), c = t[2].squaredNorm();
+  const double min = std::min(std::min(a, b), c), max = std::max(std::max(a, b), c);
+  const double longest = std::max(std::max((t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm()),
+                                  (t[0] - t[2]).squaredNorm());
   return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2]),
           min - longest / 3 - 16 * core::rounding_unit * max, max};
 }
@@ -266,18 +268,21 @@ double TriangleTree::overlap() const noexcept {
 void TriangleTree::number_anew(const TriMesh& mesh) {
   std::vector<Index> place(mesh.vertices.size(), no_index);
   triangles_.resize(mesh_triangles_.size());
-  vertices_.reserve(mesh.vertices.size()), mesh_vertices_.reserve(mesh.vertices.size());
+  mesh_vertices_.resize(mesh.vertices.size() + 1);
+  // Without a branch on whether a vertex is new, which no processor predicts: each is written where the next new one goes.
+  Index count = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = mesh.triangles[mesh_triangles_[i]][k];
-      if (place[v] == no_index) {
-        place[v] = static_cast<Index>(vertices_.size());
-        vertices_.push_back(mesh.vertices[v]);
-        mesh_vertices_.push_back(v);
-      }
-      triangles_[i][k] = place[v];
+      mesh_vertices_[count] = v;
+      const Index at = std::min(place[v], count);
+      place[v] = triangles_[i][k] = at;
+      count += at == count;
     }
   }
+  mesh_vertices_.resize(count);
+  vertices_.reserve(count);
+  for (const Index v : mesh_vertices_) vertices_.push_back(mesh.vertices[v]);
 }
 
 /// Union by smallest number.
