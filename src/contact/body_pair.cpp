@@ -108,15 +108,18 @@ void visit_meeting_pairs(const mesh::TriangleTree& fixed, const mesh::TriangleTr
 
 }  // namespace
 
-BodyPair::Body::Body(const Mesh& mesh) : tree(mesh::tree_of(mesh)), is_closed(mesh.is_closed()) {
-  number_places();
+BodyPair::Body::Body(const Mesh& mesh) : tree(mesh::tree_of(mesh)), is_closed(mesh.is_closed()) {}
+
+const std::vector<Index>& BodyPair::Body::place_of_triangle() const {
+  return place_of_triangle_.get([&](std::vector<Index>& places) {
+    places.resize(tree->triangles().size());
+    for (Index place = 0; place < places.size(); ++place) places[tree->mesh_triangles()[place]] = place;
+  });
 }
 
-void BodyPair::Body::number_places() {
-  piece_vertices = tree->one_vertex_of_each_piece();
-  place_of_triangle.resize(tree->triangles().size());
-  for (Index place = 0; place < place_of_triangle.size(); ++place)
-    place_of_triangle[tree->mesh_triangles()[place]] = place;
+const std::vector<Index>& BodyPair::Body::piece_vertices() const {
+  return piece_vertices_.get(
+      [&](std::vector<Index>& vertices) { vertices = tree->one_vertex_of_each_piece(); });
 }
 
 void BodyPair::Body::update(const Mesh& mesh, std::span<const char> is_moved) {
@@ -126,7 +129,7 @@ void BodyPair::Body::update(const Mesh& mesh, std::span<const char> is_moved) {
   refitted->refit(mesh.vertices(), is_moved);
   if (!refitted->is_worn()) return;
   *refitted = mesh::TriangleTree(mesh);
-  number_places();
+  place_of_triangle_.make_out_of_date(), piece_vertices_.make_out_of_date();
 }
 
 void BodyPair::update(BodyRole body, const Mesh& mesh, std::span<const char> is_moved) {
@@ -137,8 +140,8 @@ BodyPair::BodyPair(const Mesh& fixed, const Mesh& mobile) : fixed_(fixed), mobil
 
 bool BodyPair::touch(const Pose& X_FM, std::optional<TrianglePair>& last_witness) const {
   if (last_witness) {
-    const Index f = fixed_.place_of_triangle[last_witness->fixed],
-                m = mobile_.place_of_triangle[last_witness->mobile];
+    const Index f = fixed_.place_of_triangle()[last_witness->fixed],
+                m = mobile_.place_of_triangle()[last_witness->mobile];
     if (mesh::triangles_intersect(fixed_.tree->corners(f), posed_corners(*mobile_.tree, m, X_FM)))
       return true;
   }
@@ -182,8 +185,8 @@ bool BodyPair::one_inside_other(const Pose& X_FM) const {
   const auto any = [](const std::vector<Index>& vertices, const auto& inside) {
     return std::any_of(vertices.begin(), vertices.end(), inside);
   };
-  return (fixed_.is_closed && !fixed.empty() && any(mobile_.piece_vertices, in_fixed)) ||
-         (mobile_.is_closed && !mobile.empty() && any(fixed_.piece_vertices, in_mobile));
+  return (fixed_.is_closed && !fixed.empty() && any(mobile_.piece_vertices(), in_fixed)) ||
+         (mobile_.is_closed && !mobile.empty() && any(fixed_.piece_vertices(), in_mobile));
 }
 
 }  // namespace condyle::contact

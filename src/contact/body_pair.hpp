@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "core/lazy.hpp"
 #include "mesh/triangle_tree.hpp"
 
 namespace condyle::contact {
@@ -42,12 +43,17 @@ class BodyPair {
     std::shared_ptr<const mesh::TriangleTree> tree;  ///< the mesh's own, until it has deformed
     std::shared_ptr<mesh::TriangleTree> refitted;    ///< then this one
     bool is_closed;
-    std::vector<Index> place_of_triangle;  ///< By the mesh's number.
-    std::vector<Index> piece_vertices;     ///< The place of one vertex of each connected piece.
 
     explicit Body(const Mesh& mesh);
     void update(const Mesh& mesh, std::span<const char> is_moved);
-    void number_places();
+
+    /// By the mesh's number.
+    const std::vector<Index>& place_of_triangle() const;
+    /// The place of one vertex of each connected piece.
+    const std::vector<Index>& piece_vertices() const;
+
+   private:
+    core::Lazy<std::vector<Index>> place_of_triangle_, piece_vertices_;
   };
   bool one_inside_other(const Pose& X_FM) const;
 
