@@ -122,6 +122,15 @@ class DepthSearch {
     return {is_inside || inside() ? distance : -distance, nearest_};
   }
 
+  /// How far p is at least from T, by the box of all of it: 0 within. Most of a surface that meets T is known by it to be outside.
+  double least_outside(const Vec3& p) const noexcept {
+    const Node& root = target_.nodes().front();
+    Vec3 off = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      off[k] = std::max(0.0, std::abs(p[k] - root.centre[k]) - node_slack * root.half[k]);
+    return core::ordered_norm(off) / node_slack;
+  }
+
   void consider(const Vec3& p, Index triangle, const Sounding& at) {
     // No more than rounding is none: the middle of a triangle need not lie on it to the last bit.
     if (!(at.depth > std::max(best_.depth_mm, tolerance_))) return;
@@ -138,7 +147,7 @@ class DepthSearch {
     const std::size_t step = surface_.triangles().size() / most_considered + 1;
     for (std::size_t t = 0; t < surface_.triangles().size(); t += step) {
       const Vec3 p = posed(X_TS_, surface_.corners(static_cast<Index>(t))[0]);
-      consider(p, static_cast<Index>(t), sound(p, false));
+      if (!(least_outside(p) > 0)) consider(p, static_cast<Index>(t), sound(p, false));
     }
   }
 
@@ -146,6 +155,7 @@ class DepthSearch {
     const Node& node = surface_.nodes()[number];
     const Vec3 centre = posed(X_TS_, Vec3(node.centre[0], node.centre[1], node.centre[2]));
     const double radius = node_slack * core::ordered_norm(Vec3(node.half[0], node.half[1], node.half[2]));
+    if (const double off = least_outside(centre); off > 0 && !(radius - off > best_.depth_mm)) return;
     // Cheaper than the nearest triangle is one that was near.
     if (parent.near != no_index &&
         !(distance_to(centre, target_.corners(parent.near)) + radius > best_.depth_mm))
