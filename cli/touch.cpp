@@ -12,6 +12,7 @@
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "core/parallel.hpp"
 #include "help_formatter.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
@@ -83,8 +84,11 @@ std::vector<JointNote> unit_notes(const io::TouchFiles& files) {
 io::TouchFiles read_touch_files(const TwoMeshes& options, const CLI::App& command) {
   const io::PoseArgument pose = placing_of(options);
   for (const std::string& remark : pose.notes) note("pose: " + remark);
-  io::TouchFiles files{.fixed = read_touch_mesh(options.fixed, options),
-                       .mobile = read_touch_mesh(options.mobile, options),
+  std::optional<io::TouchMesh> fixed, mobile;
+  core::parallel_pair([&] { fixed = read_touch_mesh(options.fixed, options); },
+                      [&] { mobile = read_touch_mesh(options.mobile, options); });
+  io::TouchFiles files{.fixed = std::move(*fixed),
+                       .mobile = std::move(*mobile),
                        .X_FM = pose.X_FM,
                        .read = {options.fixed, options.mobile},
                        .command = words_of(command)};
