@@ -11,9 +11,11 @@
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
+#include "condyle/io/picture.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "core/parallel.hpp"
 #include "help_formatter.hpp"
+#include "io/file/output_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/result/touch_result.hpp"
@@ -26,7 +28,7 @@ namespace condyle::cli {
 namespace {
 
 struct TwoMeshes {
-  std::string fixed, mobile, matrix, out;
+  std::string fixed, mobile, matrix, out, picture;
   std::optional<std::string> pose;
   std::optional<io::PolygonRule> polygons;
   std::optional<LengthUnit> units;
@@ -126,11 +128,17 @@ void touch_command(const TwoMeshes& options, const CLI::App& command) {
   if (options.along.size() % 3 != 0) throw UsageError("--along: needs three numbers for each direction");
   const io::TouchFiles files = read_touch_files(options, command);
   if (!options.out.empty()) io::check_touch_folder(options.out, files);
+  if (!options.picture.empty()) io::check_output_file(options.picture, files.read, {"a picture", {".png"}});
   const TouchAnswer answer = with_unit_notes(
       answer_touch(files.fixed.mesh, files.mobile.mesh,
                    {.X_FM = files.X_FM, .measures = options.measures, .along = ways_out_of(options)}),
       options, files);
   if (!options.out.empty()) say_written(io::write_touch(options.out, answer, files, options.vtp_encoding));
+  if (!options.picture.empty()) {
+    io::write_png(options.picture, io::draw_touch(files.fixed.mesh, files.mobile.mesh, answer,
+                                                  {.view = io::view_of_touch(answer)}));
+    say_written({options.picture});
+  }
   say_touch(options, files, answer, io::touch_object, io::touch_text);
 }
 
@@ -194,11 +202,13 @@ void add_touch(CLI::App& app) {
       "--measures", [options] { options->measures = TouchMeasures::all; },
       "Compute penetration volume and areas too, which takes longer than the rest");
   add_out(*command, options->out, "Write touch.json, fixed.vtp, mobile.vtp and place.vtp into this folder");
+  command->add_option("--picture", options->picture, "Draw both meshes and what meets into this file, .png")
+      ->option_text("FILE");
   command->add_flag_callback(
       "--ascii", [options] { options->vtp_encoding = io::VtpEncoding::text; }, "Write VTP files as text");
   group_help(*command, {{"Most used", {"--pose", "--measures", "--along", "--out", "--json"}},
                         {"Meshes", {"--matrix", "--units", "--polygons"}},
-                        {"Output", {"--ascii", "--help"}}});
+                        {"Output", {"--picture", "--ascii", "--help"}}});
   command->callback([options, command] { touch_command(*options, *command); });
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "core/thread_limit.hpp"
@@ -93,6 +94,55 @@ TEST_P(Views, ShowBonesWhereTheyAre) {
     expect_colour(at_mm(picture, sign * place(of_mobile, right), sign * place(of_mobile, up)), mobile, 1,
                   "mobile");
   }
+}
+
+/// A picture of two meshes about the origin, 12 mm high, and its colour at a place.
+struct TouchSeen {
+  static constexpr double height_mm = 12;
+  TouchAnswer answer;
+  io::Picture picture;
+
+  TouchSeen(const TriMesh& fixed, const TriMesh& mobile, const io::ViewDirection& view)
+      : answer(answer_touch(fixed, mobile, {})) {
+    io::PictureOptions options = bare_square("anterior");
+    options.view = view, options.field_mm = height_mm;
+    picture = io::draw_touch(fixed, mobile, answer, options);
+  }
+  Rgb at(double right, double up) const {
+    const double per_mm = side_px / height_mm;
+    return pixel(picture, static_cast<std::size_t>(side_px / 2.0 + per_mm * right),
+                 static_cast<std::size_t>(side_px / 2.0 - per_mm * up));
+  }
+};
+
+constexpr Rgb meeting_red = {213, 94, 0}, way_blue = {0, 114, 178};
+/// Red that shines through the mobile body by 45 parts of 100.
+constexpr Rgb dimmed_red = {0.45 * 213 + 0.55 * io::mobile_bone[0], 0.45 * 94 + 0.55 * io::mobile_bone[1],
+                            0.55 * io::mobile_bone[2]};
+
+TEST(TouchPicture, ShowsTheTrianglesThatMeetAndTheDeepestPlace) {
+  // A box sunk into the top of another one, from above: both triangles of that face meet it, and none of its own top.
+  const TouchSeen seen(box({-10, -10, -10}, {10, 10, 10}), fine_box({-3, -2, 8.75}, {3, 4, 14}),
+                       {Vec3::UnitZ(), Vec3::UnitY()});
+  ASSERT_TRUE(seen.answer.deepest);
+  const Vec3 place = seen.answer.deepest->place;
+  expect_colour(seen.at(-5, -5), meeting_red, 1, "of the fixed body");
+  expect_colour(seen.at(place.x() > 0 ? -2 : 2, 3), dimmed_red, 1, "behind the mobile body");
+  expect_colour(seen.at(place.x(), place.y()), way_blue, 1, "deepest place");
+}
+
+TEST(TouchPicture, ShowsTheNearestPoints) {
+  const TouchSeen seen(fine_box({-10, -10, -20}, {10, 10, -4}), box({-3, -2, 4}, {3, 4, 10}),
+                       {Vec3::UnitY(), Vec3::UnitZ()});
+  ASSERT_TRUE(seen.answer.nearest);
+  expect_colour(seen.at(-seen.answer.nearest->on_fixed.x(), 0), way_blue, 1, "between");
+  expect_colour(seen.at(5, -5.8), io::fixed_bone, 1, "nothing meets");
+  expect_colour(seen.at(5, 0), io::white, 1, "nothing");
+  // The mobile body's way out is upwards, seen from beside it and a little from above.
+  const io::ViewDirection view = io::view_of_touch(seen.answer);
+  EXPECT_NEAR(view.up.z(), 1 / std::hypot(1, 0.6), 1e-15);
+  EXPECT_NEAR(view.towards_viewer.z(), 0.6 / std::hypot(1, 0.6), 1e-15);
+  EXPECT_NEAR(view.up.dot(view.towards_viewer), 0, 1e-15);
 }
 
 constexpr std::array<double, 3> x = {1, 0, 0}, minus_x = {-1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1},

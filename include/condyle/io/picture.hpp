@@ -14,6 +14,10 @@
 
 /// Pictures of a joint in one pose, drawn without a display: docs/figures.md.
 
+namespace condyle {
+struct TouchAnswer;
+}  // namespace condyle
+
 namespace condyle::measure {
 struct HipMeasures;
 }  // namespace condyle::measure
@@ -87,6 +91,13 @@ struct Picture {
 /// is bone, and the cost of the values.
 [[nodiscard]] Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
                                  const PictureOptions& options = {});
+
+/// Two meshes as answer_touch() found them, in the same way: triangles that meet are vermilion, and shine through what is before them;
+/// before all a blue line goes from the deepest place to its exit, or between the nearest points. Its colour and range are not used. The view of
+/// view_of_touch() has the mobile body's way out upwards.
+[[nodiscard]] Picture draw_touch(const Mesh& fixed, const Mesh& mobile, const TouchAnswer& answer,
+                                 const PictureOptions& options = {});
+[[nodiscard]] ViewDirection view_of_touch(const TouchAnswer& answer);
 
 /// Writes PNG, with the provenance as texts; whole or not at all, in a folder that is made if it is missing. Throws
 /// FileError.

@@ -61,28 +61,30 @@ std::string pose_line(const Joint& joint, const JointAngles& at, const Pose& X_F
   return line + fmt::format(", x {}, y {}, z {} mm", tenths(along.x()), tenths(along.y()), tenths(along.z()));
 }
 
-void draw_annotations(Picture& picture, std::size_t rows_of_scene, const ViewDirection& view,
-                      double pixels_per_mm, const std::string& pose) {
+void draw_annotations(Picture& picture, std::size_t rows_of_scene, const ViewDirection* view,
+                      double pixels_per_mm, const std::string& line) {
   const double width = static_cast<double>(picture.width), height = static_cast<double>(rows_of_scene);
   const double border = std::round(0.015 * std::min(width, height)) + 2;
   const double size = std::min(0.024 * height, 0.02 * width), large = 1.4 * size;
   Text text;
-  const double room = width - 2 * border, wide = width_of(pose);
+  const double room = width - 2 * border, wide = width_of(line);
   const double fitted = std::min(size, room / wide);
-  text.add(pose, border, border + fitted, fitted, Alignment::left);
+  text.add(line, border, border + fitted, fitted, Alignment::left);
 
-  const Vec3 up = view.up, right = view.up.cross(view.towards_viewer);
-  // Under the pose; a hair above the middle of the sides, where letters are.
-  text.add(orientation_letters(up), width / 2, 2 * border + size + large, large, Alignment::centre);
-  text.add(orientation_letters(-up), width / 2, height - border, large, Alignment::centre);
-  text.add(orientation_letters(-right), border, (height + large) / 2, large, Alignment::left);
-  text.add(orientation_letters(right), width - border, (height + large) / 2, large, Alignment::right);
+  if (view) {
+    const Vec3 up = view->up, right = view->up.cross(view->towards_viewer);
+    // Under the line; a hair above the middle of the sides, where letters are.
+    text.add(orientation_letters(up), width / 2, 2 * border + size + large, large, Alignment::centre);
+    text.add(orientation_letters(-up), width / 2, height - border, large, Alignment::centre);
+    text.add(orientation_letters(-right), border, (height + large) / 2, large, Alignment::left);
+    text.add(orientation_letters(right), width - border, (height + large) / 2, large, Alignment::right);
+  }
 
-  const double mm = scale_bar_mm(longest_bar * width / pixels_per_mm), line = std::max(1.0, 0.1 * size);
+  const double mm = scale_bar_mm(longest_bar * width / pixels_per_mm), thick = std::max(1.0, 0.1 * size);
   const double left = border, end = border + mm * pixels_per_mm, bottom = height - border;
-  text.add_box(left, end, bottom - 2 * line, bottom);
-  for (const double tick : {left, end - 2 * line})
-    text.add_box(tick, tick + 2 * line, bottom - 0.6 * size, bottom);
+  text.add_box(left, end, bottom - 2 * thick, bottom);
+  for (const double tick : {left, end - 2 * thick})
+    text.add_box(tick, tick + 2 * thick, bottom - 0.6 * size, bottom);
   text.add(fmt::format("{:g} mm", mm), left, bottom - size, size, Alignment::left);
   text.draw(picture, {0, rows_of_scene});
 }

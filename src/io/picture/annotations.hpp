@@ -4,7 +4,7 @@
 
 #include "condyle/io/picture.hpp"
 
-/// Text over the bones: letters of the sides, a scale bar, the pose.
+/// Text over the bodies: letters of the sides, a scale bar, a line such as the pose.
 
 namespace condyle::io {
 
@@ -17,8 +17,8 @@ double scale_bar_mm(double longest_mm) noexcept;
 /// "flexion 110, adduction 15, internal rotation 35 deg": the coordinates that the joint has, to a tenth.
 std::string pose_line(const Joint& joint, const JointAngles& at, const Pose& X_FM);
 
-/// Over the first rows of a picture, those of the bones.
-void draw_annotations(Picture& picture, std::size_t rows_of_scene, const ViewDirection& view,
-                      double pixels_per_mm, const std::string& pose);
+/// Over the first rows of a picture, those of the bodies; without a view no letters.
+void draw_annotations(Picture& picture, std::size_t rows_of_scene, const ViewDirection* view,
+                      double pixels_per_mm, const std::string& line);
 
 }  // namespace condyle::io

@@ -5,13 +5,14 @@
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
 #include "core/trigonometry.hpp"
+#include "io/picture/marks.hpp"
 #include "io/result/line_mesh.hpp"
 
 namespace condyle::io {
 namespace {
 
-constexpr std::array<std::uint8_t, 3> blue = {0, 114, 178}, vermilion = {213, 94, 0}, grey = {110, 110, 110},
-                                      green = {0, 158, 115}, orange = {230, 159, 0}, purple = {204, 121, 167};
+constexpr std::array<std::uint8_t, 3> grey = {110, 110, 110}, green = {0, 158, 115}, orange = {230, 159, 0},
+                                      purple = {204, 121, 167};
 
 /// Thickness of lines and size of dots, mm; the neck's axis in radii of the head on either side of its centre.
 constexpr double line_mm = 0.5, dot_mm = 0.9, small_dot_mm = 0.5;
@@ -22,28 +23,6 @@ constexpr int ring_steps = 144;
 /// The mark's mesh grows by a line.
 void add_line(TriMesh& mesh, const Vec3& from, const Vec3& to) {
   io::add_line(mesh, from, to, line_mm);
-}
-
-/// And by a ball: an octahedron whose edges are halved twice, pushed out.
-void add_dot(TriMesh& mesh, const Vec3& at, double radius) {
-  static constexpr int halves = 4;
-  for (const double sx : {1.0, -1.0})
-    for (const double sy : {1.0, -1.0})
-      for (const double sz : {1.0, -1.0}) {
-        const auto corner = [&](int i, int j) {
-          const Vec3 p = Vec3(sx * i, sy * j, sz * (halves - i - j)).normalized();
-          mesh.vertices.push_back(at + radius * p);
-          return static_cast<Index>(mesh.vertices.size() - 1);
-        };
-        const auto add = [&](std::array<int, 2> a, std::array<int, 2> b, std::array<int, 2> c) {
-          mesh.triangles.push_back({corner(a[0], a[1]), corner(b[0], b[1]), corner(c[0], c[1])});
-        };
-        for (int i = 0; i < halves; ++i)
-          for (int j = 0; i + j < halves; ++j) {
-            add({i, j}, {i + 1, j}, {i, j + 1});
-            if (i + j + 1 < halves) add({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
-          }
-      }
 }
 
 void add_ring(TriMesh& mesh, const measure::RimGeometry& rim) {
@@ -73,7 +52,7 @@ TriMesh femur_axes(const measure::FemurMeasures& femur, const Pose& X_FM) {
     line(femur.condyles->medial, femur.condyles->lateral);
     if (femur.head) line(femur.head->centre, femur.condyles->middle);
   }
-  if (femur.trochanter_top) add_dot(mesh, X_FM * *femur.trochanter_top, dot_mm);
+  if (femur.trochanter_top) add_ball(mesh, X_FM * *femur.trochanter_top, dot_mm);
   return mesh;
 }
 
@@ -99,12 +78,34 @@ TriMesh nearest_places(const measure::BothMeasures& both) {
   for (const auto* at : {&both.joint_space_at, &both.ischiofemoral_at})
     if (*at) {
       add_line(mesh, (*at)->fixed_point, (*at)->mobile_point);
-      add_dot(mesh, (*at)->fixed_point, dot_mm), add_dot(mesh, (*at)->mobile_point, dot_mm);
+      add_ball(mesh, (*at)->fixed_point, dot_mm), add_ball(mesh, (*at)->mobile_point, dot_mm);
     }
   return mesh;
 }
 
 }  // namespace
+
+/// An octahedron whose edges are halved twice, pushed out.
+void add_ball(TriMesh& mesh, const Vec3& at, double radius) {
+  static constexpr int halves = 4;
+  for (const double sx : {1.0, -1.0})
+    for (const double sy : {1.0, -1.0})
+      for (const double sz : {1.0, -1.0}) {
+        const auto corner = [&](int i, int j) {
+          const Vec3 p = Vec3(sx * i, sy * j, sz * (halves - i - j)).normalized();
+          mesh.vertices.push_back(at + radius * p);
+          return static_cast<Index>(mesh.vertices.size() - 1);
+        };
+        const auto add = [&](std::array<int, 2> a, std::array<int, 2> b, std::array<int, 2> c) {
+          mesh.triangles.push_back({corner(a[0], a[1]), corner(b[0], b[1]), corner(c[0], c[1])});
+        };
+        for (int i = 0; i < halves; ++i)
+          for (int j = 0; i + j < halves; ++j) {
+            add({i, j}, {i + 1, j}, {i, j + 1});
+            if (i + j + 1 < halves) add({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
+          }
+      }
+}
 
 std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, const Pose& X_FM) {
   std::vector<PictureMark> marks;
@@ -112,7 +113,7 @@ std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, con
   const measure::AcetabulumMeasures& socket = measures.acetabulum;
   TriMesh in_plane, off_plane, plane, axis, alpha;
   for (const measure::RimHour& hour : socket.rim)
-    if (hour.point) add_dot(hour.is_in_plane ? in_plane : off_plane, *hour.point, dot_mm);
+    if (hour.point) add_ball(hour.is_in_plane ? in_plane : off_plane, *hour.point, dot_mm);
   if (socket.plane) {
     add_ring(plane, *socket.plane);
     add_line(plane, socket.plane->centre, socket.plane->centre + normal_mm * socket.plane->normal);
@@ -123,7 +124,7 @@ std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, con
              X_FM * Vec3(head.centre + axis_ahead * head.radius * direction));
   }
   for (const measure::NeckHour& hour : femur.around_neck)
-    if (hour.alpha_point) add_dot(alpha, X_FM * *hour.alpha_point, small_dot_mm);
+    if (hour.alpha_point) add_ball(alpha, X_FM * *hour.alpha_point, small_dot_mm);
   add_mark(marks, std::move(plane), vermilion, "rim and its plane");
   add_mark(marks, std::move(in_plane), vermilion, "rim and its plane");
   add_mark(marks, std::move(off_plane), grey, "rim off its plane");

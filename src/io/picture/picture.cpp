@@ -14,6 +14,7 @@
 #include "io/picture/legend.hpp"
 #include "io/picture/rasteriser.hpp"
 #include "io/picture/surface_values.hpp"
+#include "io/picture/touch_marks.hpp"
 #include "io/result/ligament_mesh.hpp"
 #include "mesh/vertex_normals.hpp"
 
@@ -282,24 +283,18 @@ ViewDirection view_named(std::string_view name, Side side) {
   return {towards_viewer, up};
 }
 
-Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, const PictureOptions& given) {
-  PictureOptions options = given;
-  io::check(options);
-  for (PictureMark& mark : io::ligament_marks(joint.ligaments, X_FM))
-    options.marks.push_back(std::move(mark));
-  const BothValues values = io::surface_values(options.colour, joint, at, X_FM);
-  const ColourScale scale{options.colour,
-                          options.range_mm                         ? *options.range_mm
-                          : options.colour == PictureColour::depth ? io::range_of_depths(values)
-                                                                   : io::usual_range_mm,
-                          options.range_mm || options.colour != PictureColour::depth};
+namespace {
+
+/// A scene with its marks and legend, and a line of text over it; `sides` have letters if they are known.
+Picture drawn(const Scene& scene, PictureOptions options, const ColourScale& scale, const std::string& line,
+              const ViewDirection* sides) {
   Picture picture{options.width, options.height,
                   std::vector<std::uint8_t>(3 * options.width * options.height, 255)};
   const std::size_t rows_of_scene = options.height - io::legend_height(options);
-  const TriMesh &fixed = joint.fixed.mesh.arrays(), mobile = posed(X_FM, joint.mobile.mesh.arrays());
   const std::size_t columns = options.width * io::samples, rows = rows_of_scene * io::samples;
-  const Camera camera = io::camera_of(options, {joint.kind, fixed, mobile, values},
-                                      static_cast<double>(columns), static_cast<double>(rows));
+  const auto& [kind, fixed, mobile, values] = scene;
+  const Camera camera =
+      io::camera_of(options, scene, static_cast<double>(columns), static_cast<double>(rows));
   io::make_outer_glass(options, fixed, mobile, values, camera, static_cast<double>(columns),
                        static_cast<double>(rows));
   const Surface fixed_surface(fixed, values.fixed, scale, io::fixed_bone, options.fixed, camera, columns,
@@ -313,10 +308,39 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, 
       io::draw_strip(fixed_surface, mobile_surface, marks, strip, picture, rows_of_scene);
   });
   if (options.is_annotated)
-    io::draw_annotations(picture, rows_of_scene, options.view, camera.samples_per_mm / io::samples,
-                         io::pose_line(joint, at, X_FM));
+    io::draw_annotations(picture, rows_of_scene, sides, camera.samples_per_mm / io::samples, line);
   io::draw_legend(picture, options, scale);
   return picture;
+}
+
+}  // namespace
+
+Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, const PictureOptions& given) {
+  PictureOptions options = given;
+  io::check(options);
+  for (PictureMark& mark : io::ligament_marks(joint.ligaments, X_FM))
+    options.marks.push_back(std::move(mark));
+  const BothValues values = io::surface_values(options.colour, joint, at, X_FM);
+  const ColourScale scale{options.colour,
+                          options.range_mm                         ? *options.range_mm
+                          : options.colour == PictureColour::depth ? io::range_of_depths(values)
+                                                                   : io::usual_range_mm,
+                          options.range_mm || options.colour != PictureColour::depth};
+  const TriMesh &fixed = joint.fixed.mesh.arrays(), mobile = posed(X_FM, joint.mobile.mesh.arrays());
+  return io::drawn({joint.kind, fixed, mobile, values}, options, scale, io::pose_line(joint, at, X_FM),
+                   &options.view);
+}
+
+Picture draw_touch(const Mesh& fixed, const Mesh& mobile, const TouchAnswer& answer,
+                   const PictureOptions& given) {
+  PictureOptions options = given;
+  options.colour = PictureColour::none;
+  io::check(options);
+  const TriMesh &fixed_F = fixed.arrays(), mobile_F = posed(answer.request.X_FM, mobile.arrays());
+  for (PictureMark& mark : io::touch_marks(fixed_F, mobile_F, answer, options.view.towards_viewer))
+    options.marks.push_back(std::move(mark));
+  return io::drawn({JointKind::free, fixed_F, mobile_F, io::values_of_touch(fixed_F, mobile_F, answer)},
+                   options, {PictureColour::none, io::usual_range_mm}, io::touch_line(answer), nullptr);
 }
 
 }  // namespace condyle::io
