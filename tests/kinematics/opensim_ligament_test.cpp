@@ -5,7 +5,8 @@
 
 #include "condyle/joint.hpp"
 
-/// What testBlankevoort1991Ligament asks in testForces.cpp of OpenSim (github.com/opensim-org/opensim-core, Apache 2.0): its sizes, lengths and expectations are facts from there; the model and its motion are made anew. Metres there, millimetres here.
+/// What testBlankevoort1991Ligament asks in testForces.cpp of OpenSim (github.com/opensim-org/opensim-core, Apache 2.0): its
+/// sizes, lengths and expectations are facts from there; the model and its motion are made anew. Metres there, millimetres here.
 
 namespace condyle {
 namespace {
