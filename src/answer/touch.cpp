@@ -172,11 +172,17 @@ class Touch {
 
   void find_deepest() {
     const Pose& X_FM = answer_.request.X_FM;
+    const auto reaching = [&](BodyRole body, const Mesh& mesh) {
+      return pair_.reaching(body, mesh, X_FM, answer_.pairs);
+    };
     contact::DepthSearched of_mobile, of_fixed;
-    if (fixed_is_solid_) of_mobile = contact::deepest_place(pair_.fixed_tree(), pair_.mobile_tree(), X_FM);
+    if (fixed_is_solid_)
+      of_mobile = contact::deepest_place(pair_.fixed_tree(), pair_.mobile_tree(), X_FM,
+                                         reaching(BodyRole::mobile, bodies_.mobile()));
     const double known = of_mobile.deepest ? of_mobile.deepest->depth_mm : 0;
     if (mobile_is_solid_)
-      of_fixed = contact::deepest_place(pair_.mobile_tree(), pair_.fixed_tree(), inverted(X_FM), known);
+      of_fixed = contact::deepest_place(pair_.mobile_tree(), pair_.fixed_tree(), inverted(X_FM),
+                                        reaching(BodyRole::fixed, bodies_.fixed()), known);
     if (of_fixed.deepest)
       answer_.deepest = depth_of(BodyRole::fixed, *of_fixed.deepest, X_FM);
     else if (of_mobile.deepest)

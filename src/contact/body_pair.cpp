@@ -1,10 +1,12 @@
 #include "contact/body_pair.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "contact/placed_trees.hpp"
 #include "core/float_bounds.hpp"
 #include "mesh/triangle_intersection.hpp"
+#include "mesh/vertex_triangles.hpp"
 #include "mesh/vertical_ray.hpp"
 
 namespace condyle::contact {
@@ -106,6 +108,27 @@ void visit_meeting_pairs(const mesh::TriangleTree& fixed, const mesh::TriangleTr
   });
 }
 
+/// Points in F against the solids of both bodies.
+class PlacedSolids {
+ public:
+  PlacedSolids(const mesh::TriangleTree& fixed, const mesh::TriangleTree& mobile, const Pose& X_FM)
+      : fixed_(fixed), mobile_(mobile), X_FM_(X_FM), placed_(fixed, mobile, X_FM) {}
+
+  bool holds(BodyRole body, const Vec3& p) const {
+    const auto corners_of_fixed = [&](Index t) { return fixed_.corners(t); };
+    const auto corners_of_mobile = [&](Index t) { return posed_corners(mobile_, t, X_FM_); };
+    const auto box_of_fixed = [](const Node& node) { return node; };
+    const auto box_of_mobile = [&](const Node& node) { return placed_.mobile_in_fixed(node); };
+    return (body == BodyRole::fixed ? mesh::winding_number(fixed_, p, box_of_fixed, corners_of_fixed)
+                                    : mesh::winding_number(mobile_, p, box_of_mobile, corners_of_mobile)) > 0;
+  }
+
+ private:
+  const mesh::TriangleTree &fixed_, &mobile_;
+  const Pose& X_FM_;
+  PlacedTrees placed_;
+};
+
 }  // namespace
 
 BodyPair::Body::Body(const Mesh& mesh) : tree(mesh::tree_of(mesh)), is_closed(mesh.is_closed()) {}
@@ -171,22 +194,51 @@ std::vector<TrianglePair> BodyPair::pairs(const Pose& X_FM) const {
 /// Surfaces that do not meet: a connected piece is inside the other solid with every vertex or with none.
 bool BodyPair::one_inside_other(const Pose& X_FM) const {
   const mesh::TriangleTree &fixed = *fixed_.tree, &mobile = *mobile_.tree;
+  const PlacedSolids solids(fixed, mobile, X_FM);
   const auto in_fixed = [&](Index v) {
-    return mesh::winding_number(
-               fixed, posed(X_FM, mobile.vertices()[v]), [](const Node& node) { return node; },
-               [&](Index t) { return fixed.corners(t); }) > 0;
+    return solids.holds(BodyRole::fixed, posed(X_FM, mobile.vertices()[v]));
   };
-  const PlacedTrees placed(fixed, mobile, X_FM);
-  const auto in_mobile = [&](Index v) {
-    return mesh::winding_number(
-               mobile, fixed.vertices()[v], [&](const Node& node) { return placed.mobile_in_fixed(node); },
-               [&](Index t) { return posed_corners(mobile, t, X_FM); }) > 0;
-  };
+  const auto in_mobile = [&](Index v) { return solids.holds(BodyRole::mobile, fixed.vertices()[v]); };
   const auto any = [](const std::vector<Index>& vertices, const auto& inside) {
     return std::any_of(vertices.begin(), vertices.end(), inside);
   };
   return (fixed_.is_closed && !fixed.empty() && any(mobile_.piece_vertices(), in_fixed)) ||
          (mobile_.is_closed && !mobile.empty() && any(fixed_.piece_vertices(), in_mobile));
+}
+
+/// A triangle that meets nothing is inside with every corner or with none. So what lies inside is reached, over such triangles, from a corner
+/// of one that meets something, or is a piece by itself.
+std::vector<char> BodyPair::reaching(BodyRole body, const Mesh& mesh, const Pose& X_FM,
+                                     std::span<const TrianglePair> pairs) const {
+  const bool is_fixed = body == BodyRole::fixed;
+  const Body& own = is_fixed ? fixed_ : mobile_;
+  const BodyRole other = is_fixed ? BodyRole::mobile : BodyRole::fixed;
+  const PlacedSolids solids(*fixed_.tree, *mobile_.tree, X_FM);
+  std::vector<char> is_reaching(mesh.triangles().size()), is_seen(mesh.vertices().size());
+  std::vector<Index> inside;
+  const auto look_at = [&](Index v) {
+    if (std::exchange(is_seen[v], true)) return;
+    const Vec3& p = mesh.vertices()[v];
+    if (solids.holds(other, is_fixed ? p : posed(X_FM, p))) inside.push_back(v);
+  };
+  for (const TrianglePair& pair : pairs) {
+    const Index t = is_fixed ? pair.fixed : pair.mobile;
+    if (std::exchange(is_reaching[t], true)) continue;
+    for (const Index v : mesh.triangles()[t]) look_at(v);
+  }
+  for (const Index place : own.piece_vertices()) look_at(own.tree->mesh_vertices()[place]);
+  if (inside.empty()) return is_reaching;
+  const mesh::VertexTriangles& around = mesh::triangles_at_vertices_of(mesh);
+  while (!inside.empty()) {
+    const Index v = inside.back();
+    inside.pop_back();
+    for (const Index t : around.of(v)) {
+      if (std::exchange(is_reaching[t], true)) continue;
+      for (const Index w : mesh.triangles()[t])
+        if (!std::exchange(is_seen[w], true)) inside.push_back(w);
+    }
+  }
+  return is_reaching;
 }
 
 }  // namespace condyle::contact

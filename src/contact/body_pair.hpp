@@ -34,6 +34,12 @@ class BodyPair {
   /// The exact set of intersecting triangle pairs, ascending; open meshes too. One thread.
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
 
+  /// Which triangles of a body have a point inside the other's solid, or on it: those of `pairs`, and all that lie inside as a whole, which
+  /// meet none. A mark for each of its mesh. Exact as pairs(), but that triangles without area may be marked, and what they lead to. The
+  /// other body has to be closed.
+  std::vector<char> reaching(BodyRole body, const Mesh& mesh, const Pose& X_FM,
+                             std::span<const TrianglePair> pairs) const;
+
   /// Over the triangles of each body in its own frame.
   const mesh::TriangleTree& fixed_tree() const noexcept { return *fixed_.tree; }
   const mesh::TriangleTree& mobile_tree() const noexcept { return *mobile_.tree; }

@@ -80,8 +80,15 @@ struct LinearFunction {
 class DepthSearch {
  public:
   DepthSearch(const mesh::TriangleTree& target, const mesh::TriangleTree& surface, const Pose& X_TS,
-              double deeper_than, std::size_t most_parts)
+              std::span<const char> reaching, double deeper_than, std::size_t most_parts)
       : target_(target), surface_(surface), X_TS_(X_TS), distances_(target), most_parts_(most_parts) {
+    reaching_before_.reserve(surface.triangles().size() + 1);
+    for (const Index t : surface.mesh_triangles()) {
+      reaching_before_.push_back(static_cast<Index>(reaching_.size()));
+      if (reaching.empty() || reaching[t])
+        reaching_.push_back(static_cast<Index>(reaching_before_.size() - 1));
+    }
+    reaching_before_.push_back(static_cast<Index>(reaching_.size()));
     double size = X_TS.translation().cwiseAbs().maxCoeff();
     for (const auto* tree : {&target, &surface}) {
       const Node& root = tree->nodes().front();
@@ -144,15 +151,16 @@ class DepthSearch {
 
   /// Points of the surface to compare bounds with: if all of it is about as deep, bounds alone would not come to one.
   void consider_some() {
-    const std::size_t step = surface_.triangles().size() / most_considered + 1;
-    for (std::size_t t = 0; t < surface_.triangles().size(); t += step) {
-      const Vec3 p = posed(X_TS_, surface_.corners(static_cast<Index>(t))[0]);
-      if (!(least_outside(p) > 0)) consider(p, static_cast<Index>(t), sound(p, false));
+    const std::size_t step = reaching_.size() / most_considered + 1;
+    for (std::size_t i = 0; i < reaching_.size(); i += step) {
+      const Vec3 p = posed(X_TS_, surface_.corners(reaching_[i])[0]);
+      if (!(least_outside(p) > 0)) consider(p, reaching_[i], sound(p, false));
     }
   }
 
   void push_node(Index number, const SurfacePart& parent) {
     const Node& node = surface_.nodes()[number];
+    if (reaching_before_[node.first] == reaching_before_[node.last]) return;
     const Vec3 centre = posed(X_TS_, Vec3(node.centre[0], node.centre[1], node.centre[2]));
     const double radius = node_slack * core::ordered_norm(Vec3(node.half[0], node.half[1], node.half[2]));
     if (const double off = least_outside(centre); off > 0 && !(radius - off > best_.depth_mm)) return;
@@ -175,7 +183,8 @@ class DepthSearch {
       push_node(node.child + 1, part);
       return;
     }
-    for (Index t = node.first; t < node.last; ++t) {
+    for (Index i = reaching_before_[node.first]; i < reaching_before_[node.last]; ++i) {
+      const Index t = reaching_[i];
       const CornerPoints own = surface_.corners(t);
       push_piece({.bound = part.bound,
                   .triangle = t,
@@ -313,6 +322,8 @@ class DepthSearch {
   const mesh::TriangleTree &target_, &surface_;
   const Pose& X_TS_;
   mesh::DistancesToSurface distances_;
+  std::vector<Index> reaching_;         ///< places of triangles of S, ascending
+  std::vector<Index> reaching_before_;  ///< how many of them are before a place
   std::size_t most_parts_, parts_ = 0;
   double tolerance_ = 0;
   Index nearest_ = no_index;
@@ -324,9 +335,10 @@ class DepthSearch {
 }  // namespace
 
 DepthSearched deepest_place(const mesh::TriangleTree& target, const mesh::TriangleTree& surface,
-                            const Pose& X_TS, double deeper_than_mm, std::size_t most_parts) {
+                            const Pose& X_TS, std::span<const char> reaching, double deeper_than_mm,
+                            std::size_t most_parts) {
   if (target.empty() || surface.empty()) return {};
-  return DepthSearch(target, surface, X_TS, deeper_than_mm, most_parts).run();
+  return DepthSearch(target, surface, X_TS, reaching, deeper_than_mm, most_parts).run();
 }
 
 }  // namespace condyle::contact

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "condyle/answer.hpp"
@@ -141,6 +142,49 @@ TEST(Touch, DepthIsThatOfTheDeepestOfManyPoints) {
     EXPECT_EQ(mesh::WindingNumber(fixed).at(found->place).state, PointState::inside) << k;
   }
   EXPECT_GT(in_contact, 20);
+}
+
+/// A triangle that meets nothing is inside if a corner is.
+TEST(Touch, TrianglesThatReachInsideAreThoseOfBruteForce) {
+  std::mt19937 random(64);
+  const std::vector<TriMesh> shapes = {
+      box({-3, -4, -5}, {3, 4, 5}), torus(4, 1.5, 10, 7), sphere({0, 0, 0}, 4, 2),
+      joined(joined(sphere({0, 0, 0}, 1, 1), sphere({9, 0, 0}, 3, 1)), box({-2, -9, -2}, {2, -6, 2}))};
+  std::size_t inside = 0, meeting = 0;
+  for (int k = 0; k < 60; ++k) {
+    const TriMesh &fixed = shapes[random() % 4], &mobile = shapes[random() % 4];
+    const Pose X_FM = random_pose(random, 5);
+    const contact::JointContact bodies(fixed, mobile);
+    const contact::BodyPair& pair = contact::body_pair_of(bodies);
+    const auto pairs = pair.pairs(X_FM);
+    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
+      const bool is_fixed = role == BodyRole::fixed;
+      const Mesh& own = is_fixed ? bodies.fixed() : bodies.mobile();
+      const mesh::WindingNumber other(is_fixed ? Mesh(posed(X_FM, mobile)) : bodies.fixed());
+      std::vector<char> expected(own.triangles().size());
+      for (const contact::TrianglePair& each : pairs)
+        expected[is_fixed ? each.fixed : each.mobile] = true, ++meeting;
+      for (std::size_t t = 0; t < expected.size(); ++t) {
+        const Vec3& p = own.vertices()[own.triangles()[t][0]];
+        if (expected[t] || other.at(is_fixed ? p : posed(X_FM, p)).winding <= 0) continue;
+        expected[t] = true, ++inside;
+      }
+      const std::vector<char> reaching = pair.reaching(role, own, X_FM, pairs);
+      EXPECT_EQ(reaching, expected) << k;
+
+      const auto& [target, surface, X_TS] =
+          is_fixed ? std::tuple(&pair.mobile_tree(), &pair.fixed_tree(), inverted(X_FM))
+                   : std::tuple(&pair.fixed_tree(), &pair.mobile_tree(), X_FM);
+      const auto all = contact::deepest_place(*target, *surface, X_TS);
+      const auto some = contact::deepest_place(*target, *surface, X_TS, reaching);
+      ASSERT_EQ(all.deepest.has_value(), some.deepest.has_value()) << k;
+      if (all.deepest) {
+        EXPECT_NEAR(all.deepest->depth_mm, some.deepest->depth_mm, 1e-11) << k;
+      }
+    }
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(meeting, 1000);
 }
 
 TEST(Touch, OfTwoBallsIsTheirClosedFormsWithinWhatFacetsSag) {
