@@ -86,7 +86,7 @@ def draw_ratios(path, folder):
 
 
 def main(path, folder):
-    if path.endswith(".json"):
+    if Path(path).suffix == ".json":
         return draw_ratios(path, folder)
     with open(path, encoding="utf-8") as file:
         outcomes = [row for row in csv.DictReader(file) if row["deformed"] == "no"]
