@@ -130,11 +130,14 @@ def _marks(grid: MotionGrid, view: str) -> List[Tuple[str, NDArray[np.bool_]]]:
     return [(name, marked) for name, marked in marks if marked.any()]
 
 
-def _handles(names: Sequence[str], ground: Optional[str] = None) -> List[Patch]:
+def _handles(grid: MotionGrid, names: Sequence[str], ground: Optional[str] = None) -> List[Patch]:
     """Meaning of the hatchings, for the legend; on this ground where it is not that of a contour."""
+    has_ligaments = bool(ligaments_of(grid))
     handles = []
     for name in names:
         pattern, colour, words = HATCHES[name]
+        if name == "islands" and has_ligaments:
+            words = "free again beyond that end"
         colours = matplotlib.colormaps[style.SEQUENTIAL]
         below = style.LIGHT_GREY if name == "nowhere" else ground or colours(0.45 if name == "open" else 0.75)
         handles.append(Patch(facecolor=below, edgecolor=colour, hatch=pattern, linewidth=0, label=words))
@@ -213,7 +216,7 @@ def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] =
             bar.update_ticks()
             bar.set_label(in_two_lines(f"{quantity_of(grid, view)} (°)", 40))
         if legend:
-            style.legend_below(ax, is_ours, _handles([name for name, _ in marks]))
+            style.legend_below(ax, is_ours, _handles(grid, [name for name, _ in marks]))
     return ax
 
 
@@ -265,12 +268,13 @@ def map_ends(result: MapLike, side: Literal["positive", "negative"] = "positive"
         raise UsageError("a map of one row or one column has no area: motion_map draws it")
     ligaments = ligaments_of(grid, side)
     places = {name: i for i, name in enumerate(ligaments_of(grid))}
-    names, is_open = ((grid.upper_ligament, grid.upper_open) if side == "positive" else
+    found, is_open = ((grid.upper_ligament, grid.upper_open) if side == "positive" else
                       (grid.lower_ligament, grid.lower_open))
-    by_ligament = np.zeros(values.shape, dtype=bool) if names is None else names != ""
+    names = np.full(values.shape, "") if found is None else found
+    by_ligament = np.not_equal(names, "")
     somewhere = grid.intervals > 0
     #        gid, words, colour, hatch, cells
-    ends = [(f"ligament {name}", name, *_look_of(places[name]), names == name) for name in ligaments]
+    ends = [(f"ligament {name}", name, *_look_of(places[name]), np.equal(names, name)) for name in ligaments]
     ends += [("contact", "contact", style.tinted(style.GREY), "", somewhere & ~by_ligament & ~is_open),
              ("end_of_range", "end of the range", "white", "", somewhere & is_open)]
     ends = [end for end in ends if end[-1].any()]
@@ -301,7 +305,7 @@ def map_ends(result: MapLike, side: Literal["positive", "negative"] = "positive"
         if legend:
             style.legend_below(ax, is_ours, [
                 Patch(facecolor=colour, edgecolor="black", hatch=hatch or None, linewidth=0.4, label=words)
-                for _, words, colour, hatch, _ in ends] + _handles([name for name, _ in marks], "white"))
+                for _, words, colour, hatch, _ in ends] + _handles(grid, [name for name, _ in marks], "white"))
     return ax
 
 

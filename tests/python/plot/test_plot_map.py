@@ -152,6 +152,8 @@ def test_live_maps_are_drawn_as_files_are():
     assert {name: len(cells) for name, cells in hatched(ax).items()} == {"not_at_start": 1, "islands": 1, "open": 1}
     of_ends = {name: len(cells) for name, cells in coloured(figures.map_ends(live)).items()}
     assert of_ends == {"ligament front": 1, "ligament back": 1, "contact": 3, "end_of_range": 1}
+    # What ends the motion there may be a ligament.
+    assert "free again beyond that end" in {text.get_text() for text in ax.get_legend().get_texts()}
 
 
 def coloured(ax):
