@@ -17,7 +17,7 @@ struct InsideAccuracy {
   std::int64_t inside = 0;  ///< In truth.
   std::int64_t false_inside = 0, false_outside = 0;
   std::int64_t depths = 0;      ///< Compared: vertices truly inside that have a reported depth.
-  std::int64_t depths_off = 0;  ///< Of these, off by more than wrong_depth_mm.
+  std::int64_t depths_off = 0;  ///< How many of them are off by more than wrong_depth_mm.
   double depth_error_sum_mm = 0, depth_error_max_mm = 0;
 
   double mean_depth_error_mm() const {

@@ -33,7 +33,7 @@ Ratios read_baseline(const std::string& file);
 /// default those where Condyle got a quarter slower, or more, beside the other. A whole command may lose a tenth at most.
 std::vector<std::string> worse_than(const Ratios& baseline, const Ratios& now, double tolerated = 0.8);
 
-/// Of every run that is stored, the ratios that a reader follows over time.
+/// The ratios of every stored run that a reader follows over time.
 std::span<const std::string_view> main_ratios();
 
 /// Adds a run to a file of stored runs: date, commit, processor, load, and those of the main ratios that it has. Raises

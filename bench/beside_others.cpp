@@ -228,7 +228,7 @@ struct Axes {
   }
 };
 
-/// What tells apart several ways to ask one method.
+/// Distinguishes several ways to ask one method.
 struct How {
   std::string in_name, in_title;
 };

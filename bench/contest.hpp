@@ -24,7 +24,7 @@ struct Wrong {
 /// A question made ready.
 struct Ready {
   std::function<void()> ask;     ///< At all poses of the contest, once; the answers are kept.
-  std::function<Wrong()> count;  ///< Of the answers of the last `ask`.
+  std::function<Wrong()> count;  ///< Counts the wrong answers of the last `ask`.
 };
 
 struct Contestant {
@@ -36,7 +36,7 @@ struct Contestant {
 struct Result {
   std::string name, title;
   double making_seconds = 0;
-  double seconds = 0;       ///< Of all poses together, in one thread.
+  double seconds = 0;       ///< The time for all poses together, in one thread.
   double ours_seconds = 0;  ///< Condyle's, in turn with it.
   Wrong wrong;
   std::string failure;  ///< Why it has no answers; empty where it has.

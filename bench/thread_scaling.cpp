@@ -40,7 +40,7 @@ struct ScaledSeconds {
   /// For which threads were ready, all together, while other programs ran; empty if the work was another process.
   std::optional<double> kept_waiting;
 
-  /// Of the time of n threads, less what others took of it.
+  /// The share of the time of n threads, less what others took of it.
   double busy(double n) const { return processor / (n * wall - *kept_waiting); }
 };
 
@@ -49,7 +49,7 @@ struct Scaled {
   std::function<ScaledSeconds(std::size_t threads)> run;
 };
 
-/// Of all threads of this process, since they began: the second number that Linux has of each.
+/// Sums over all threads of this process, since they began, the second number that Linux reports of each.
 double kept_waiting_seconds() {
   double seconds = 0;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {

@@ -31,7 +31,7 @@ from query import VERTEX_FACE, cross, dot, minus  # of bench/rotation_queries, w
 
 # Of the length of a motion, which is a square root.
 ROUNDING = 4e-16
-# A contact that is missed by less than this share of a feature cannot be told from one in double precision.
+# A contact that is missed by less than this share of a feature cannot be distinguished from one in double precision.
 GROWN = Fraction(1, 2**48)
 
 
