@@ -132,6 +132,11 @@ void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
         JointNoteCode::inverted_mesh,
         body.name +
             " has inverted orientation, its volume is negative: it is mirrored, or needs flip_inverted");
+  else if (const auto first = mesh::inverted_piece(body.mesh))
+    notes.add(JointNoteCode::inverted_mesh,
+              body.name + formatted(" has a piece that is inside out, that of triangle %u: nothing counts as "
+                                    "inside of it",
+                                    *first));
   // An open mesh has its own note.
   if (body.mesh.is_closed())
     if (const mesh::DoubledTriangles doubled = mesh::doubled_triangles(body.mesh); doubled.count > 0)

@@ -25,6 +25,9 @@ namespace {
 
 constexpr std::size_t no_piece = SurfacePiece::no_piece;
 
+/// A flat piece has no more volume than this share of its area times its width: rounding.
+constexpr double flat_share = 1e-9;
+
 /// A piece inside an open one is judged by so many of its vertices, and only if it has this share of the other's area: specks mislead no fit,
 /// and each costs the whole of the open piece.
 constexpr std::size_t vertices_judged = 5;
@@ -324,6 +327,14 @@ TriMesh with_pieces(const Mesh& mesh, const std::vector<bool>& kept) {
     if (const std::size_t piece = pieces.of_triangle[t]; piece != no_piece && kept[piece])
       part.triangles.push_back(mesh.triangles()[t]);
   return part;
+}
+
+std::optional<Index> inverted_piece(const Mesh& mesh) {
+  for (const SurfacePiece& piece : pieces_of(mesh).all)
+    if (piece.is_closed && !piece.is_inner() &&
+        piece.signed_volume < -flat_share * piece.area * piece.width())
+      return piece.first_triangle;
+  return std::nullopt;
 }
 
 const Mesh& outer_surface(const Mesh& mesh) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "condyle/inspect.hpp"
@@ -58,6 +59,9 @@ std::vector<bool> piece_with_cavities(const SurfacePieces& pieces, std::size_t p
 /// The pieces of a surface. A vertex is inner if another closed piece winds round it, or if the piece is large and an open one winds round
 /// more than half of the directions from it. Kept with the mesh; near linear, and a winding number for each piece that may hold another.
 const SurfacePieces& pieces_of(const Mesh& mesh);
+
+/// The first triangle of a closed piece that is inside out and lies in no other, as the wall of a cavity rightly does.
+std::optional<Index> inverted_piece(const Mesh& mesh);
 
 /// The surface without the triangles all of whose corners are inner, with the numbers of its vertices. The mesh itself if there
 /// are none. Kept with the mesh.

@@ -161,6 +161,12 @@ const std::vector<Case> wrong_set_ups{
      [](HipSetUp& s) { s.mobile = test::flipped(s.mobile); },
      {Code::inverted_mesh, Code::no_head}},
     {"ReversedHipBone", vhf, [](HipSetUp& s) { s.fixed = test::flipped(s.fixed); }, {Code::inverted_mesh}},
+    {"ReversedPieceBesideTheHipBone",
+     vhf,
+     [](HipSetUp& s) {
+       s.fixed = test::joined(s.fixed, test::flipped(test::box({80, 80, 80}, {84, 84, 84})));
+     },
+     {Code::separate_pieces, Code::inverted_mesh}},
     {"OpenFemur", vhf, [](HipSetUp& s) { s.mobile = without_some_triangles(s.mobile); }, {Code::open_mesh}},
     {"OpenHipBone", vhf, [](HipSetUp& s) { s.fixed = without_some_triangles(s.fixed); }, {Code::open_mesh}},
     {"SecondSurfaceThroughTheFemur",
