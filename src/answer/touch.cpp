@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "answer/require_surface.hpp"
 #include "condyle/error.hpp"
 #include "contact/body_pair.hpp"
 #include "contact/deepest_place.hpp"
@@ -26,11 +27,7 @@ namespace {
 /// Kept with the mesh, which may be asked at many poses.
 struct KeptVolume {
   core::Lazy<double> volume;
-  core::Lazy<std::optional<Index>> inverted_piece;
 };
-
-/// A flat piece has no more volume than this share of its area times its width: rounding.
-constexpr double flat_share = 1e-9;
 
 /// What a closed mesh encloses; nothing of an open one.
 std::optional<double> volume_of(const Mesh& mesh) {
@@ -47,15 +44,10 @@ void prepare(const contact::JointContact& bodies) {
   core::parallel_pair(of(bodies.fixed()), of(bodies.mobile()));
 }
 
-/// The first triangle of a closed piece that is inside out and lies in no other, as the wall of a cavity rightly does.
+/// Most surfaces are one piece, which the tree says at less cost.
 std::optional<Index> inverted_piece(const Mesh& mesh) {
-  return mesh::findings_of(mesh).get<KeptVolume>().inverted_piece.get([&](std::optional<Index>& first) {
-    if (mesh::tree_of(mesh)->one_vertex_of_each_piece().size() < 2) return;
-    for (const mesh::SurfacePiece& piece : mesh::pieces_of(mesh).all)
-      if (!first && piece.is_closed && !piece.is_inner() &&
-          piece.signed_volume < -flat_share * piece.area * piece.width())
-        first = piece.first_triangle;
-  });
+  if (mesh::tree_of(mesh)->one_vertex_of_each_piece().size() < 2) return std::nullopt;
+  return mesh::inverted_piece(mesh);
 }
 
 /// Whether a mesh has an inside that means one: closed, its normals outwards. Notes why not.
@@ -79,18 +71,6 @@ bool is_solid(const Mesh& mesh, BodyRole role, std::vector<JointNote>& notes) {
     return true;
   }
   return false;
-}
-
-/// A triangle without area meets nothing, as its points belong to its neighbours: a body of such triangles only would be apart from all.
-void require_surface(const Mesh& mesh, const std::string& body) {
-  if (mesh.triangles().empty()) throw MeshError(body + " has no triangle");
-  const auto has_area = [&](const Triangle& t) {
-    const mesh::TriangleCorners corners = {mesh.vertices()[t[0]], mesh.vertices()[t[1]],
-                                           mesh.vertices()[t[2]]};
-    return mesh::contains_coplanar(corners, corners[0]);  // without an area it contains nothing
-  };
-  if (std::none_of(mesh.triangles().begin(), mesh.triangles().end(), has_area))
-    throw MeshError(body + " has no triangle with an area");
 }
 
 void require_surfaces(const Mesh& fixed, const Mesh& mobile) {
@@ -158,7 +138,7 @@ class Touch {
   std::optional<BodyRole> wholly_inside() const {
     const auto all_inside = [](const mesh::TriangleTree& tree, const Points& vertices, const Mesh& other) {
       const mesh::WindingNumber winding(other);
-      const std::vector<Index> pieces = tree.one_vertex_of_each_piece();
+      const std::vector<Index>& pieces = tree.one_vertex_of_each_piece();
       return std::all_of(pieces.begin(), pieces.end(), [&](Index v) {
         return winding.at(vertices[tree.mesh_vertices()[v]]).state == PointState::inside;
       });
@@ -172,17 +152,15 @@ class Touch {
 
   void find_deepest() {
     const Pose& X_FM = answer_.request.X_FM;
-    const auto reaching = [&](BodyRole body, const Mesh& mesh) {
-      return pair_.reaching(body, mesh, X_FM, answer_.pairs);
-    };
+    const auto reaching = [&](BodyRole body) { return pair_.reaching(body, X_FM, answer_.pairs); };
     contact::DepthSearched of_mobile, of_fixed;
     if (fixed_is_solid_)
-      of_mobile = contact::deepest_place(pair_.fixed_tree(), pair_.mobile_tree(), X_FM,
-                                         reaching(BodyRole::mobile, bodies_.mobile()));
+      of_mobile =
+          contact::deepest_place(pair_.fixed_tree(), pair_.mobile_tree(), X_FM, reaching(BodyRole::mobile));
     const double known = of_mobile.deepest ? of_mobile.deepest->depth_mm : 0;
     if (mobile_is_solid_)
       of_fixed = contact::deepest_place(pair_.mobile_tree(), pair_.fixed_tree(), inverted(X_FM),
-                                        reaching(BodyRole::fixed, bodies_.fixed()), known);
+                                        reaching(BodyRole::fixed), known);
     if (of_fixed.deepest)
       answer_.deepest = depth_of(BodyRole::fixed, *of_fixed.deepest, X_FM);
     else if (of_mobile.deepest)
@@ -264,6 +242,17 @@ class Touch {
 };
 
 }  // namespace
+
+void require_surface(const Mesh& mesh, const std::string& body) {
+  if (mesh.triangles().empty()) throw MeshError(body + " has no triangle");
+  const auto has_area = [&](const Triangle& t) {
+    const mesh::TriangleCorners corners = {mesh.vertices()[t[0]], mesh.vertices()[t[1]],
+                                           mesh.vertices()[t[2]]};
+    return mesh::contains_coplanar(corners, corners[0]);  // without an area it contains nothing
+  };
+  if (std::none_of(mesh.triangles().begin(), mesh.triangles().end(), has_area))
+    throw MeshError(body + " has no triangle with an area");
+}
 
 TouchAnswer answer_touch(const contact::JointContact& bodies, const TouchRequest& request) {
   require_surfaces(bodies.fixed(), bodies.mobile());

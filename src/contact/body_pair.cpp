@@ -6,7 +6,6 @@
 #include "contact/placed_trees.hpp"
 #include "core/float_bounds.hpp"
 #include "mesh/triangle_intersection.hpp"
-#include "mesh/vertex_triangles.hpp"
 #include "mesh/vertical_ray.hpp"
 
 namespace condyle::contact {
@@ -140,9 +139,10 @@ const std::vector<Index>& BodyPair::Body::place_of_triangle() const {
   });
 }
 
-const std::vector<Index>& BodyPair::Body::piece_vertices() const {
-  return piece_vertices_.get(
-      [&](std::vector<Index>& vertices) { vertices = tree->one_vertex_of_each_piece(); });
+const mesh::VertexTriangles& BodyPair::Body::triangles_at_vertices() const {
+  return triangles_at_vertices_.get([&](mesh::VertexTriangles& all) {
+    all = {tree->triangles(), tree->vertices().size()};
+  });
 }
 
 void BodyPair::Body::update(const Mesh& mesh, std::span<const char> is_moved) {
@@ -152,7 +152,7 @@ void BodyPair::Body::update(const Mesh& mesh, std::span<const char> is_moved) {
   refitted->refit(mesh.vertices(), is_moved);
   if (!refitted->is_worn()) return;
   *refitted = mesh::TriangleTree(mesh);
-  place_of_triangle_.make_out_of_date(), piece_vertices_.make_out_of_date();
+  place_of_triangle_.make_out_of_date(), triangles_at_vertices_.make_out_of_date();
 }
 
 void BodyPair::update(BodyRole body, const Mesh& mesh, std::span<const char> is_moved) {
@@ -202,39 +202,38 @@ bool BodyPair::one_inside_other(const Pose& X_FM) const {
   const auto any = [](const std::vector<Index>& vertices, const auto& inside) {
     return std::any_of(vertices.begin(), vertices.end(), inside);
   };
-  return (fixed_.is_closed && !fixed.empty() && any(mobile_.piece_vertices(), in_fixed)) ||
-         (mobile_.is_closed && !mobile.empty() && any(fixed_.piece_vertices(), in_mobile));
+  return (fixed_.is_closed && !fixed.empty() && any(mobile.one_vertex_of_each_piece(), in_fixed)) ||
+         (mobile_.is_closed && !mobile.empty() && any(fixed.one_vertex_of_each_piece(), in_mobile));
 }
 
 /// A triangle that meets nothing is inside with every corner or with none. So what lies inside is reached, over such triangles, from a corner
 /// of one that meets something, or is a piece by itself.
-std::vector<char> BodyPair::reaching(BodyRole body, const Mesh& mesh, const Pose& X_FM,
+std::vector<char> BodyPair::reaching(BodyRole body, const Pose& X_FM,
                                      std::span<const TrianglePair> pairs) const {
   const bool is_fixed = body == BodyRole::fixed;
   const Body& own = is_fixed ? fixed_ : mobile_;
   const BodyRole other = is_fixed ? BodyRole::mobile : BodyRole::fixed;
   const PlacedSolids solids(*fixed_.tree, *mobile_.tree, X_FM);
-  std::vector<char> is_reaching(mesh.triangles().size()), is_seen(mesh.vertices().size());
+  const std::vector<Triangle>& triangles = own.tree->triangles();
+  const std::vector<Vec3>& vertices = own.tree->vertices();
+  std::vector<char> is_reaching(triangles.size()), is_seen(vertices.size());
   std::vector<Index> inside;
   const auto look_at = [&](Index v) {
     if (std::exchange(is_seen[v], true)) return;
-    const Vec3& p = mesh.vertices()[v];
-    if (solids.holds(other, is_fixed ? p : posed(X_FM, p))) inside.push_back(v);
+    if (solids.holds(other, is_fixed ? vertices[v] : posed(X_FM, vertices[v]))) inside.push_back(v);
   };
   for (const TrianglePair& pair : pairs) {
-    const Index t = is_fixed ? pair.fixed : pair.mobile;
+    const Index t = own.place_of_triangle()[is_fixed ? pair.fixed : pair.mobile];
     if (std::exchange(is_reaching[t], true)) continue;
-    for (const Index v : mesh.triangles()[t]) look_at(v);
+    for (const Index v : triangles[t]) look_at(v);
   }
-  for (const Index place : own.piece_vertices()) look_at(own.tree->mesh_vertices()[place]);
-  if (inside.empty()) return is_reaching;
-  const mesh::VertexTriangles& around = mesh::triangles_at_vertices_of(mesh);
+  for (const Index v : own.tree->one_vertex_of_each_piece()) look_at(v);
   while (!inside.empty()) {
     const Index v = inside.back();
     inside.pop_back();
-    for (const Index t : around.of(v)) {
+    for (const Index t : own.triangles_at_vertices().of(v)) {
       if (std::exchange(is_reaching[t], true)) continue;
-      for (const Index w : mesh.triangles()[t])
+      for (const Index w : triangles[t])
         if (!std::exchange(is_seen[w], true)) inside.push_back(w);
     }
   }

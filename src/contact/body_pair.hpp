@@ -8,6 +8,7 @@
 #include "condyle/contact.hpp"
 #include "core/lazy.hpp"
 #include "mesh/triangle_tree.hpp"
+#include "mesh/vertex_triangles.hpp"
 
 namespace condyle::contact {
 
@@ -35,10 +36,9 @@ class BodyPair {
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
 
   /// Which triangles of a body have a point inside the other's solid, or on it: those of `pairs`, and all that lie inside as a whole, which
-  /// meet none. A mark for each of its mesh. Exact as pairs(), but that triangles without area may be marked, and what they lead to. The
+  /// meet none. A mark for each of its tree. Exact as pairs(), but that triangles without area may be marked, and what they lead to. The
   /// other body has to be closed.
-  std::vector<char> reaching(BodyRole body, const Mesh& mesh, const Pose& X_FM,
-                             std::span<const TrianglePair> pairs) const;
+  std::vector<char> reaching(BodyRole body, const Pose& X_FM, std::span<const TrianglePair> pairs) const;
 
   /// Over the triangles of each body in its own frame.
   const mesh::TriangleTree& fixed_tree() const noexcept { return *fixed_.tree; }
@@ -53,13 +53,14 @@ class BodyPair {
     explicit Body(const Mesh& mesh);
     void update(const Mesh& mesh, std::span<const char> is_moved);
 
-    /// By the mesh's number.
+    /// The place of a triangle, by its number in the mesh.
     const std::vector<Index>& place_of_triangle() const;
-    /// The place of one vertex of each connected piece.
-    const std::vector<Index>& piece_vertices() const;
+    /// In places of the tree, which are near each other where triangles are.
+    const mesh::VertexTriangles& triangles_at_vertices() const;
 
    private:
-    core::Lazy<std::vector<Index>> place_of_triangle_, piece_vertices_;
+    core::Lazy<std::vector<Index>> place_of_triangle_;
+    core::Lazy<mesh::VertexTriangles> triangles_at_vertices_;
   };
   bool one_inside_other(const Pose& X_FM) const;
 

@@ -29,6 +29,9 @@ constexpr std::size_t most_considered = 256;
 /// Every so often a part is halved, whatever else would cut it: its size then goes to zero.
 constexpr int cuts_per_halving = 4;
 
+/// Pieces that may be deeper by this factor than any place yet are worth a look at whether they are inside at all.
+constexpr double thin_share = 4;
+
 /// Bounds of nodes are in single precision, and cover what they hold after they are posed.
 constexpr double node_slack = 1 + 1e-5;
 
@@ -38,6 +41,7 @@ struct SurfacePart {
   Index node = no_index, triangle = no_index;
   std::vector<Vec3> corners = {};  ///< of a piece, in the frame of T
   Index near = no_index;           ///< a triangle of T that was nearest to what it is a part of
+  Index through = no_index;        ///< one through which it may get inside, if its middle is outside
   int cuts = 0;
   bool is_inside = false;  ///< every point of it
 
@@ -77,16 +81,21 @@ struct LinearFunction {
   double operator()(const Vec3& p) const noexcept { return n.dot(p) - d; }
 };
 
+/// Above 0 on the outer side of a triangle.
+LinearFunction plane_of(const CornerPoints& t) {
+  const Vec3 n = normal_of_corners(t);
+  return {n, n.dot(t[0])};
+}
+
 class DepthSearch {
  public:
   DepthSearch(const mesh::TriangleTree& target, const mesh::TriangleTree& surface, const Pose& X_TS,
               std::span<const char> reaching, double deeper_than, std::size_t most_parts)
       : target_(target), surface_(surface), X_TS_(X_TS), distances_(target), most_parts_(most_parts) {
     reaching_before_.reserve(surface.triangles().size() + 1);
-    for (const Index t : surface.mesh_triangles()) {
+    for (Index t = 0; t < surface.triangles().size(); ++t) {
       reaching_before_.push_back(static_cast<Index>(reaching_.size()));
-      if (reaching.empty() || reaching[t])
-        reaching_.push_back(static_cast<Index>(reaching_before_.size() - 1));
+      if (reaching.empty() || reaching[t]) reaching_.push_back(t);
     }
     reaching_before_.push_back(static_cast<Index>(reaching_.size()));
     double size = X_TS.translation().cwiseAbs().maxCoeff();
@@ -214,14 +223,18 @@ class DepthSearch {
     part.near = at.nearest;
     part.bound = std::min({part.bound, at.depth + radius, farthest_from(at.nearest, part)});
     if (!(part.bound > best_.depth_mm + tolerance_)) return;
-    if (at.depth < 0 && !(best_.depth_mm > tolerance_) && is_outside(part, middle, radius)) return;
+    part.through = no_index;
+    if (at.depth < -tolerance_ && part.bound > thin_share * best_.depth_mm) {
+      part.through = way_in(part, middle, radius);
+      if (part.through == no_index) return;
+    }
     open_.push(std::move(part));
   }
 
-  /// Whether a piece whose middle is outside is so as a whole, though it may touch: to get inside, it would have to go through a triangle
-  /// of T from its outer to its inner side, and no triangle within reach has a corner of the piece on its inner side. Without a depth to
-  /// compare with, pieces that touch would be cut for ever.
-  bool is_outside(const SurfacePart& part, const Vec3& middle, double radius) const {
+  /// A triangle of T through which a piece whose middle is outside may get inside: which it may meet, and has a corner of it on its inner
+  /// side. Without one all of the piece is outside, though it may touch. Pieces that touch, or end just outside of a thin overlap, would
+  /// be cut until they are as small as the depth.
+  Index way_in(const SurfacePart& part, const Vec3& middle, double radius) const {
     std::vector<Index> open = {0};
     while (!open.empty()) {
       const Node& node = target_.nodes()[open.back()];
@@ -236,15 +249,35 @@ class DepthSearch {
       }
       for (Index t = node.first; t < node.last; ++t) {
         const CornerPoints corners = target_.corners(t);
-        const Vec3 n = normal_of_corners(corners);
-        const LinearFunction above{n, n.dot(corners[0])};
+        const LinearFunction above = plane_of(corners);
         if (std::any_of(part.corners.begin(), part.corners.end(),
                         [&](const Vec3& p) { return above(p) < -tolerance_; }) &&
-            distance_to(middle, corners) <= radius)
-          return false;
+            distance_to(middle, corners) <= radius && !are_separated(part.corners, corners, above.n))
+          return t;
       }
     }
-    return true;
+    return no_index;
+  }
+
+  /// Whether a plane at a right angle to a piece or to an edge of it or of a triangle with normal n, in its plane, keeps them apart.
+  bool are_separated(const std::vector<Vec3>& piece, const CornerPoints& t, const Vec3& n) const {
+    const auto apart_along = [&](const Vec3& axis) {
+      const auto extent = [&](const auto& points) {
+        double low = points[0].dot(axis), high = low;
+        for (const Vec3& p : points) low = std::min(low, p.dot(axis)), high = std::max(high, p.dot(axis));
+        return std::pair(low, high);
+      };
+      const auto [piece_low, piece_high] = extent(piece);
+      const auto [low, high] = extent(t);
+      return std::max(low - piece_high, piece_low - high) > tolerance_ * axis.norm();
+    };
+    const Vec3 across = (piece[1] - piece[0]).cross(piece[2] - piece[0]);
+    if (apart_along(across)) return true;
+    for (std::size_t k = 0; k < piece.size(); ++k)
+      if (apart_along((piece[(k + 1) % piece.size()] - piece[k]).cross(across))) return true;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (apart_along((t[(k + 1) % 3] - t[k]).cross(n))) return true;
+    return false;
   }
 
   /// Cuts a piece where its bound comes from: the corner that is farthest from the triangle that is nearest to the middle.
@@ -258,12 +291,11 @@ class DepthSearch {
     consider(far, part.triangle, at_far);
     if (part.cuts % cuts_per_halving != cuts_per_halving - 1) {
       if (const auto edge = edge_between(near, middle, far); edge && split(part, *edge)) return;
-      const CornerPoints other = target_.corners(at_far.nearest);
-      const Vec3 n = normal_of_corners(near), m = normal_of_corners(other);
-      const LinearFunction of_near{n, n.dot(near[0])}, of_other{m, m.dot(other[0])};
+      const LinearFunction of_near = plane_of(near), of_other = plane_of(target_.corners(at_far.nearest));
       if (at_far.depth < 0 && split(part, of_other)) return;
+      if (part.through != no_index && split(part, plane_of(target_.corners(part.through)))) return;
       // Depths below two faces are equal on a plane.
-      if (split(part, {m - n, of_other.d - of_near.d})) return;
+      if (split(part, {of_other.n - of_near.n, of_other.d - of_near.d})) return;
     }
     halve(part);
   }

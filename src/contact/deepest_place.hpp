@@ -36,7 +36,7 @@ struct DepthSearched {
 /// no bound exceeds the depth of a point by more than rounding (1e-13 of the coordinates), or `most_parts` were looked at: the bound says
 /// which. `target` must be of a closed mesh with its normals outwards. Only places deeper than `deeper_than_mm` are searched for.
 ///
-/// `reaching` marks the triangles of S's mesh that have a point inside: BodyPair::reaching(). Without marks all may, and those that lie
+/// `reaching` marks the triangles of the surface's tree that have a point inside: BodyPair::reaching(). Without marks all may, and those that lie
 /// outside as closely as they are large are looked at one by one.
 DepthSearched deepest_place(const mesh::TriangleTree& target, const mesh::TriangleTree& surface,
                             const Pose& X_TS, std::span<const char> reaching = {}, double deeper_than_mm = 0,

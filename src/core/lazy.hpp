@@ -14,7 +14,14 @@ class Lazy {
  public:
   Lazy() = default;
   Lazy(const Lazy& other) : Lazy(other, std::lock_guard(other.mutex_)) {}
-  Lazy& operator=(const Lazy&) = delete;
+  /// While nothing else reads this one.
+  Lazy& operator=(const Lazy& other) {
+    if (this == &other) return *this;
+    const std::lock_guard lock(other.mutex_);
+    value_ = other.value_;
+    is_current_.store(other.is_current_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    return *this;
+  }
 
   /// make(T&) where it is not current, once for all threads; the rest wait. Where it throws, the part stays as
   /// out of date as it was. What it computes in parallel takes up no work from outside, which may want this part.

@@ -1,14 +1,19 @@
 #include "mesh/enclosed_volume.hpp"
 
+#include <vector>
+
 namespace condyle::mesh {
 
 BoundingBox bounds_of_surface(const TriMesh& mesh) {
   if (mesh.triangles.empty()) return {Vec3::Zero(), Vec3::Zero()};
+  std::vector<char> is_used(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles)
+    for (const Index v : t) is_used[v] = true;
   BoundingBox bounds{mesh.corner(0, 0), mesh.corner(0, 0)};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    bounds.low = bounds.low.cwiseMin(a).cwiseMin(b).cwiseMin(c);
-    bounds.high = bounds.high.cwiseMax(a).cwiseMax(b).cwiseMax(c);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!is_used[v]) continue;
+    bounds.low = bounds.low.cwiseMin(mesh.vertices[v]);
+    bounds.high = bounds.high.cwiseMax(mesh.vertices[v]);
   }
   return bounds;
 }

@@ -102,7 +102,7 @@ struct Extent {
 /// The nearest point of a triangle is at most (longest edge) / sqrt(3) from its nearest corner and a right
 /// angle off: |p|^2 >= min^2 - longest^2 / 3. The squares' roundings are below 16 u max^2.
 Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
-  // Of pairs: a list of three would be stored and read again.
+  // Minima of pairs: a list of three would be stored and read again.
   const double a = t[0].squaredNorm(), b = t[1].squaredNorm(), c = t[2].squaredNorm();
   const double min = std::min(std::min(a, b), c), max = std::max(std::max(a, b), c);
   const double longest = std::max(std::max((t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm()),
@@ -286,24 +286,24 @@ void TriangleTree::number_anew(const TriMesh& mesh) {
 }
 
 /// Union by smallest number.
-std::vector<Index> TriangleTree::one_vertex_of_each_piece() const {
-  std::vector<Index> root(vertices_.size());
-  std::iota(root.begin(), root.end(), Index{0});
-  const auto find = [&](Index v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : triangles_) {
-    for (const Index other : {b, c}) {
-      const auto [low, high] = std::minmax({find(a), find(other)});
-      root[high] = low;
+const std::vector<Index>& TriangleTree::one_vertex_of_each_piece() const {
+  return piece_vertices_.get([&](std::vector<Index>& pieces) {
+    std::vector<Index> root(vertices_.size());
+    std::iota(root.begin(), root.end(), Index{0});
+    const auto find = [&](Index v) {
+      while (root[v] != v) v = root[v] = root[root[v]];
+      return v;
+    };
+    for (const auto& [a, b, c] : triangles_) {
+      for (const Index other : {b, c}) {
+        const auto [low, high] = std::minmax({find(a), find(other)});
+        root[high] = low;
+      }
     }
-  }
-  std::vector<Index> pieces;
-  for (Index v = 0; v < root.size(); ++v) {
-    if (root[v] == v) pieces.push_back(v);
-  }
-  return pieces;
+    for (Index v = 0; v < root.size(); ++v) {
+      if (root[v] == v) pieces.push_back(v);
+    }
+  });
 }
 
 }  // namespace condyle::mesh

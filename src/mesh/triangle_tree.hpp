@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/mesh.hpp"
+#include "core/lazy.hpp"
 
 namespace condyle::mesh {
 
@@ -64,8 +65,8 @@ class TriangleTree {
   const std::vector<Index>& mesh_triangles() const noexcept { return mesh_triangles_; }
   const std::vector<Index>& mesh_vertices() const noexcept { return mesh_vertices_; }
 
-  /// The smallest place of each connected piece. Near linear in triangles.
-  std::vector<Index> one_vertex_of_each_piece() const;
+  /// The smallest place of each connected piece. Near linear in triangles when first asked for, and kept.
+  const std::vector<Index>& one_vertex_of_each_piece() const;
 
   std::array<Vec3, 3> corners(Index triangle) const noexcept {
     const auto [a, b, c] = triangles_[triangle];
@@ -84,6 +85,7 @@ class TriangleTree {
   std::vector<Triangle> triangles_;
   std::vector<Vec3> vertices_;
   std::vector<Index> mesh_triangles_, mesh_vertices_;
+  core::Lazy<std::vector<Index>> piece_vertices_;
   double overlap_made_ = 0, overlap_now_ = 0;  ///< from the first refit on
 };
 

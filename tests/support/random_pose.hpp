@@ -1,0 +1,26 @@
+#pragma once
+
+#include <random>
+
+#include "condyle/pose.hpp"
+#include "core/rotation_about.hpp"
+
+namespace condyle::test {
+
+inline Pose at(const Vec3& translation) {
+  Pose X = Pose::Identity();
+  X.translation() = translation;
+  return X;
+}
+
+/// Turned anyhow, and moved by up to `reach` along each axis.
+inline Pose random_pose(std::mt19937& random, double reach) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> angle(-3, 3), place(-reach, reach);
+  Pose X = at({place(random), place(random), place(random)});
+  X.linear() =
+      core::rotation_about(Vec3(normal(random), normal(random), normal(random)).normalized(), angle(random));
+  return X;
+}
+
+}  // namespace condyle::test
