@@ -261,7 +261,7 @@ void draw(const HipArguments& options) {
 /// All files of the folder, which was empty, and what was read from elsewhere for them.
 void write_crate(const HipArguments& options, const io::InputRecorder& read, const io::Provenance& from) {
   const fs::path folder = options.out;
-  io::CrateRun run{*options.crate_date, "condyle hip", io::command_text(from), {}};
+  io::CrateRun run{*options.crate_date, "condyle hip", io::command_text(from.command), {}};
   // A joint file names meshes from its own folder, so each is read under two names.
   std::set<fs::path> listed;
   for (io::Input& input : read.inputs())

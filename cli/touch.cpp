@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "answer/require_surface.hpp"
 #include "choice.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
-#include "condyle/io/picture.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "core/parallel.hpp"
 #include "help_formatter.hpp"
@@ -51,9 +51,12 @@ io::TouchMesh read_touch_mesh(const std::string& path, const TwoMeshes& options)
   if (const double mm = mm_per(options.units.value_or(LengthUnit::millimetres)); mm != 1)
     for (std::vector<double>* row : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z})
       for (double& value : *row) value *= mm;
-  const bool has_digest = options.form == AnswerForm::json || !options.out.empty();
+  const bool has_digest =
+      options.form == AnswerForm::json || !options.out.empty() || !options.picture.empty();
   try {
-    return {path, std::move(mesh), has_digest ? io::digest_of(bytes) : io::FileDigest{}};
+    io::TouchMesh read{path, std::move(mesh), has_digest ? io::digest_of(bytes) : io::FileDigest{}};
+    require_surface(read.mesh, "the mesh");
+    return read;
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
@@ -135,8 +138,7 @@ void touch_command(const TwoMeshes& options, const CLI::App& command) {
       options, files);
   if (!options.out.empty()) say_written(io::write_touch(options.out, answer, files, options.vtp_encoding));
   if (!options.picture.empty()) {
-    io::write_png(options.picture, io::draw_touch(files.fixed.mesh, files.mobile.mesh, answer,
-                                                  {.view = io::view_of_touch(answer)}));
+    io::write_touch_picture(options.picture, answer, files);
     say_written({options.picture});
   }
   say_touch(options, files, answer, io::touch_object, io::touch_text);

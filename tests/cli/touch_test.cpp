@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -52,6 +53,21 @@ TEST_F(TouchCommand, SaysHowDeepAndHowFarOut) {
   EXPECT_NE(text.out.find("deepest: 1.25 mm, at "), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("free once b.ply has moved 1.25 mm along (0, 0, 1)"), std::string::npos)
       << text.out;
+  // Each file says where it comes from.
+  ASSERT_EQ(run("touch a.ply b.ply --matrix down.txt --out origin --ascii --picture origin.png").exit_code,
+            0);
+  for (const char* said : {"b.ply", "--matrix", "sha256"}) {
+    for (const char* name : {"origin/touch.json", "origin.png"})
+      EXPECT_NE(io::read_whole_file(here / name).find(said), std::string::npos) << name << ": " << said;
+    // VTK writes texts as the codes of their letters.
+    std::string codes;
+    for (const char* letter = said; *letter; ++letter) codes += " " + std::to_string(int{*letter});
+    for (const char* name : {"origin/fixed.vtp", "origin/mobile.vtp", "origin/place.vtp"}) {
+      std::string written = io::read_whole_file(here / name);
+      std::replace(written.begin(), written.end(), '\n', ' ');
+      EXPECT_NE(written.find(codes), std::string::npos) << name << ": " << said;
+    }
+  }
   for (const char* name : {"deep/touch.json", "deep/fixed.vtp", "deep/mobile.vtp", "deep/place.vtp"})
     EXPECT_TRUE(fs::exists(here / name)) << name;
   const TriMesh placed = io::read_mesh(here / "deep/mobile.vtp").mesh;
@@ -113,6 +129,10 @@ TEST_F(TouchCommand, RefusesInOneLine) {
   refused("touch a.ply missing.ply", 3, "missing.ply");
   refused("touch a.ply none.obj", 3, "none.obj");
   refused("touch a.ply", 2, "B");
+  io::write_whole_file(here / "needle.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  for (const char* needle : {"touch a.ply needle.obj", "turn needle.obj a.ply --axis 0 0 1",
+                             "slide a.ply needle.obj --along 1 0 0"})
+    refused(needle, 4, "needle.obj: the mesh has no triangle with an area");
 }
 
 }  // namespace

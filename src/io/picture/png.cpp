@@ -5,9 +5,9 @@
 #include <string_view>
 #include <variant>
 
-#include "condyle/io/picture.hpp"
 #include "io/file/deflate.hpp"
 #include "io/file/output_file.hpp"
+#include "io/picture/png.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle::io {
@@ -50,9 +50,9 @@ std::string filtered_rows(const Picture& picture) {
 }
 
 /// PNG 1.2, sections 3 to 6.
-std::string png_bytes(const Picture& picture, const Provenance* from) {
+std::string png_bytes(const Picture& picture, std::span<const VtpField> fields) {
   std::string bytes = "\x89PNG\r\n\x1a\n" + chunk("IHDR", header(picture));
-  for (const VtpField& field : io::provenance_fields(from))
+  for (const VtpField& field : fields)
     if (const auto* text = std::get_if<std::string>(&field.value))
       bytes += chunk("tEXt", field.name + std::string(1, '\0') + *text);
   return bytes + chunk("IDAT", io::deflated(filtered_rows(picture))) + chunk("IEND", "");
@@ -60,9 +60,14 @@ std::string png_bytes(const Picture& picture, const Provenance* from) {
 
 }  // namespace
 
+void write_png(const std::filesystem::path& path, const Picture& picture, std::span<const VtpField> fields,
+               std::span<const std::filesystem::path> read) {
+  io::check_output_file(path, read);
+  io::write_output_file(path, png_bytes(picture, fields));
+}
+
 void write_png(const std::filesystem::path& path, const Picture& picture, const Provenance* from) {
-  io::check_output_file(path, io::files_read(from));
-  io::write_output_file(path, png_bytes(picture, from));
+  write_png(path, picture, io::provenance_fields(from), io::files_read(from));
 }
 
 }  // namespace condyle::io

@@ -156,7 +156,7 @@ void write_crate(OutputFolder& out, const CrateRun& run) {
 }
 
 CrateRun crate_run_of(const Provenance& from, std::string date, std::string name) {
-  CrateRun run{std::move(date), std::move(name), command_text(from), {}};
+  CrateRun run{std::move(date), std::move(name), command_text(from.command), {}};
   const auto add = [&](const fs::path& path, const std::string& sha256) {
     run.inputs.push_back({Input::Kind::file, path, sha256});
   };

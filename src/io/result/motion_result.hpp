@@ -42,8 +42,9 @@ Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answ
 
 /// As here, or as OpenSim names them: NAME.length in m, NAME.strain, NAME.force_spring.
 enum class LigamentNames { ours, of_opensim };
-/// Length, strain and tension of each ligament, their speed, damping and total force if any has damping and speeds are known, and under names of ours the force and moment of all on the mobile body, in the fixed body's joint
-/// frame, the moment about its origin. Nothing where a length is not known.
+/// Length, strain and tension of each ligament; its speed, damping and total force if any has damping and speeds are known; and under names
+/// of ours the force and moment of all on the mobile body, in the fixed body's joint frame, the moment about its origin. Nothing where a
+/// length is not known.
 Curves ligament_curves_of(const MotionQuestion& question, const MotionAnswer& answer, LigamentNames names);
 
 /// The curves' largest values and when, frames in contact, gaps: a few lines.

@@ -102,12 +102,6 @@ Json mesh_json(const MeshOrigin& mesh) {
   return json;
 }
 
-std::string file_text(const std::filesystem::path& path, const FileDigest& digest) {
-  const std::string name = path.string();
-  return fmt::format("{}, {} bytes, sha256 {}", core::one_line(name, name.size()), digest.bytes,
-                     digest.sha256);
-}
-
 std::string values_text(const std::vector<PosedPart>& parts) {
   std::string text;
   for (const PosedPart& part : parts)
@@ -194,10 +188,16 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           loaded.joint.planned};
 }
 
-std::string command_text(const Provenance& from) {
+std::string command_text(const std::vector<std::string>& words) {
   std::string text = "condyle";
-  for (const std::string& word : from.command) text += " " + shell_word(word);
+  for (const std::string& word : words) text += " " + shell_word(word);
   return text;
+}
+
+std::string file_text(const std::filesystem::path& path, const FileDigest& digest) {
+  const std::string name = path.string();
+  return fmt::format("{}, {} bytes, sha256 {}", core::one_line(name, name.size()), digest.bytes,
+                     digest.sha256);
 }
 
 Json file_json(const std::filesystem::path& path, const FileDigest& digest) {
@@ -230,7 +230,7 @@ std::vector<VtpField> provenance_fields(const Provenance* from) {
     fields.push_back({std::move(name), std::move(value)});
   };
   add("condyle_version", std::string(condyle::version));
-  add("condyle_command", command_text(*from));
+  add("condyle_command", command_text(from->command));
   add("joint_file", file_text(from->joint_path, from->joint_digest));
   add("fixed_mesh", files_text(from->fixed));
   add("mobile_mesh", files_text(from->mobile));

@@ -18,9 +18,10 @@ class InputRecorder;
 
 /// A file that an answer comes from.
 Json file_json(const std::filesystem::path& path, const FileDigest& digest);
+std::string file_text(const std::filesystem::path& path, const FileDigest& digest);
 
-/// The command line as a shell takes it.
-std::string command_text(const Provenance& from);
+/// The command line as a shell takes it, of its words without the program.
+std::string command_text(const std::vector<std::string>& words);
 
 /// Files that were read for an answer; nothing if that is not known.
 inline std::span<const std::filesystem::path> files_read(const Provenance* from) {

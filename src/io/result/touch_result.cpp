@@ -11,6 +11,7 @@
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/picture/png.hpp"
 #include "io/record/json_of.hpp"
 #include "io/result/line_mesh.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -90,6 +91,17 @@ bool is_of_touch(std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+/// Where an answer comes from.
+std::vector<VtpField> origin_fields(const TouchFiles& files) {
+  // One by one: GCC 12 destroys what an initializer list never built if one of its elements throws.
+  std::vector<VtpField> fields;
+  fields.push_back({"condyle_version", std::string(version)});
+  fields.push_back({"condyle_command", command_text(files.command)});
+  fields.push_back({"fixed_mesh", file_text(files.fixed.path, files.fixed.digest)});
+  fields.push_back({"mobile_mesh", file_text(files.mobile.path, files.mobile.digest)});
+  return fields;
+}
+
 /// 1 for each triangle that is in a pair.
 MeshArray marks_of(const TouchAnswer& answer, std::size_t triangles, Index contact::TrianglePair::*of) {
   std::vector<std::uint8_t> marks(triangles);
@@ -121,7 +133,10 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
   if (record.intersecting_pairs > 0)
     text += fmt::format("  pairs of triangles that meet: {}\n", record.intersecting_pairs);
   if (const auto& deepest = record.deepest)
-    text += fmt::format("  deepest: {:.6g} mm, at {} of {}, out along {}\n", deepest->depth_mm,
+    text += fmt::format("  deepest: {:.6g} mm{}, at {} of {}, out along {}\n", deepest->depth_mm,
+                        deepest->error_mm > 1e-6 * deepest->depth_mm
+                            ? fmt::format(" (no place is deeper by more than {:.1g} mm)", deepest->error_mm)
+                            : "",
                         xyz_text(deepest->place_mm), file_in_role(files, deepest->body).string(),
                         xyz_text(deepest->normal));
   else if (record.depth_bound_mm)
@@ -135,8 +150,7 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
     if (again.value_or(0) > 0)
       text += fmt::format(
           "    {} covers {:.3g} mm3 about the overlap more than once, where it crosses itself or has a "
-          "component "
-          "in another: the volume may count space there twice\n",
+          "component in another: the volume may count space there twice\n",
           path.string(), *again);
   };
   add_again(files.fixed.path, record.fixed_covered_again_mm3);
@@ -181,8 +195,9 @@ void check_touch_folder(const std::filesystem::path& folder, const TouchFiles& f
 std::vector<std::filesystem::path> write_touch(const std::filesystem::path& folder, const TouchAnswer& answer,
                                                const TouchFiles& files, VtpEncoding encoding) {
   OutputFolder out(folder, is_of_touch, files.read, "touch.json");
+  const VtpOptions options{encoding, origin_fields(files)};
   const auto write = [&](const char* name, const TriMesh& mesh, std::vector<MeshArray> triangles) {
-    write_vtp(out.file(name), mesh, {}, triangles, {encoding, {}});
+    write_vtp(out.file(name), mesh, {}, triangles, options);
   };
   write("fixed.vtp", files.fixed.mesh,
         {marks_of(answer, files.fixed.mesh.triangles().size(), &contact::TrianglePair::fixed)});
@@ -195,6 +210,13 @@ std::vector<std::filesystem::path> write_touch(const std::filesystem::path& fold
   }
   write_whole_file(out.file("touch.json"), document(touch_object(answer, &files)));
   return out.commit();
+}
+
+void write_touch_picture(const std::filesystem::path& path, const TouchAnswer& answer,
+                         const TouchFiles& files) {
+  const Picture drawn =
+      draw_touch(files.fixed.mesh, files.mobile.mesh, answer, {.view = view_of_touch(answer)});
+  write_png(path, drawn, origin_fields(files), files.read);
 }
 
 }  // namespace condyle::io

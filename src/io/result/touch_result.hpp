@@ -44,4 +44,8 @@ void check_touch_folder(const std::filesystem::path& folder, const TouchFiles& f
 std::vector<std::filesystem::path> write_touch(const std::filesystem::path& folder, const TouchAnswer& answer,
                                                const TouchFiles& files, VtpEncoding encoding);
 
+/// Draws both meshes and what meets as PNG: draw_touch() in the view of view_of_touch().
+void write_touch_picture(const std::filesystem::path& path, const TouchAnswer& answer,
+                         const TouchFiles& files);
+
 }  // namespace condyle::io
