@@ -42,6 +42,7 @@ condyle_touch touch_of(const TouchAnswer& answer) noexcept {
   copy(answer.nearest ? answer.nearest->on_mobile : nowhere, out.nearest_mobile_mm);
   out.depth_mm = answer.deepest ? answer.deepest->depth_mm : none;
   out.depth_error_mm = answer.deepest ? answer.deepest->error_mm : none;
+  out.depth_bound_mm = answer.depth_bound_mm.value_or(none);
   copy(answer.deepest ? answer.deepest->place : nowhere, out.place_mm);
   copy(answer.deepest ? answer.deepest->exit : nowhere, out.exit_mm);
   const TouchOverlap overlap = answer.overlap.value_or(TouchOverlap{});
@@ -49,6 +50,8 @@ condyle_touch touch_of(const TouchAnswer& answer) noexcept {
   out.volume_error_mm3 = overlap.volume_mm3 ? overlap.volume_error_mm3 : none;
   out.fixed_area_mm2 = overlap.fixed_area_mm2.value_or(none);
   out.mobile_area_mm2 = overlap.mobile_area_mm2.value_or(none);
+  out.fixed_covered_again_mm3 = overlap.volume_mm3 ? overlap.fixed_covered_again_mm3 : none;
+  out.mobile_covered_again_mm3 = overlap.volume_mm3 ? overlap.mobile_covered_again_mm3 : none;
   return out;
 }
 

@@ -132,8 +132,11 @@ typedef struct condyle_touch {
   double nearest_fixed_mm[3], nearest_mobile_mm[3];
   int deepest_of;  ///< the body whose surface has the deepest place; -1 if nothing of a surface is inside the other body
   double depth_mm, depth_error_mm;  ///< no place is deeper by more
+  double depth_bound_mm;            ///< no place is deeper; known without a deepest place too
   double place_mm[3], exit_mm[3];   ///< the nearest point of the other surface
   double volume_mm3, volume_error_mm3, fixed_area_mm2, mobile_area_mm2;  ///< only `with_measures` != 0
+  /// Likewise, how much a body covers more than once about the overlap: above 0 if it crosses itself, and the volume counts that again.
+  double fixed_covered_again_mm3, mobile_covered_again_mm3;
 } condyle_touch;
 
 /// Depth over the whole of both surfaces, whatever their triangles. A body that is open or inside out has no inside: what needs it is

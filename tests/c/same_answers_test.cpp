@@ -42,7 +42,7 @@ TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
     const contact::Contact expected = cpp.at(X);
     most_inside = std::max(most_inside, expect_same(expected, results.get()));
     free_poses += !expected.in_contact;
-    const TouchAnswer touch = answer_touch(cpp, {.X_FM = X});
+    const TouchAnswer touch = answer_touch(cpp, {.X_FM = X, .measures = TouchMeasures::all});
     condyle_touch in_c;
     ASSERT_EQ(condyle_joint_contact_touch(c.get(), &pose, 1, &in_c), CONDYLE_OK) << condyle_last_error();
     EXPECT_EQ(in_c.in_contact, touch.in_contact ? 1 : 0);
@@ -54,8 +54,11 @@ TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
       EXPECT_EQ(in_c.depth_mm, touch.deepest->depth_mm);
       EXPECT_EQ(in_c.exit_mm[1], touch.deepest->exit.y());
     }
+    ASSERT_EQ(touch.overlap.has_value(), touch.in_contact);
     if (touch.overlap) {
       EXPECT_EQ(in_c.volume_mm3, touch.overlap->volume_mm3);
+      EXPECT_EQ(in_c.depth_bound_mm, touch.depth_bound_mm);
+      EXPECT_EQ(in_c.fixed_covered_again_mm3, touch.overlap->fixed_covered_again_mm3);
     }
     if (touch.nearest) {
       EXPECT_EQ(in_c.nearest_distance_mm, touch.nearest->distance_mm);
