@@ -14,7 +14,7 @@ namespace {
 
 /// The vector along the axis of a rotation and as long as its angle, at most pi.
 Vec3 rotation_vector(const Eigen::Matrix3d& R) noexcept {
-  // Of the quaternion with a part w of 0 or more: near a half turn the antisymmetric part of R has lost the axis.
+  // The quaternion with a part w of 0 or more has it: near a half turn the antisymmetric part of R has lost the axis.
   const Eigen::Quaterniond q(R);
   const Vec3 v = q.w() < 0 ? Vec3(-q.vec()) : Vec3(q.vec());
   const double sine = v.norm();

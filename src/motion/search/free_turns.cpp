@@ -39,7 +39,7 @@ void touch_at_start(const ContactWitness& touching, FreeAngles& free) {
   free.from_start.negative = free.from_start.positive = start;
 }
 
-/// Of vertices as they are rounded into the frame of the axis.
+/// Computes them for vertices as they are rounded into the frame of the axis.
 FreeAngles free_turns_in_its_frame(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F,
                                    const Pose& X_FM) {
   core::require_rotation(X_FM);
