@@ -152,7 +152,7 @@ TEST_F(JointBodyPose, AMatrixOfFewDigitsIsMadeARotationWithANote) {
 }
 
 TEST_F(JointBodyPose, AMeshMayBeNamedByTheEnvironment) {
-  ASSERT_EQ(::setenv("CONDYLE_TEST_FOLDER", folder.path().c_str(), 1), 0);
+  ASSERT_EQ(::setenv("CONDYLE_TEST_FOLDER", folder.path().string().c_str(), 1), 0);
   const io::JointFile file =
       io::read_joint_file(write("mesh = \"${CONDYLE_TEST_FOLDER}/femur.ply\"", plain_tibia));
   EXPECT_EQ(file.fixed.meshes[0].mesh, folder / "femur.ply");
