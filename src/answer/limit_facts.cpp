@@ -6,6 +6,7 @@
 
 #include "condyle/joint_checks.hpp"
 #include "core/formatted.hpp"
+#include "core/rounded.hpp"
 #include "motion/rom/socket_hour.hpp"
 
 namespace condyle {
@@ -63,12 +64,12 @@ std::optional<double> clock_hour(const RangeAnswer& answer, const motion::Motion
 
 std::string guarantee_text(const motion::MotionLimit& limit) {
   const bool is_bounded = limit.translation_mm && limit.end.reason == motion::LimitReason::contact;
-  const double error_bound_deg = limit.end.error_bound.degrees();
+  const std::string error_bound_deg = core::at_most(limit.end.error_bound.degrees(), 2);
   if (is_bounded)
     return core::formatted(
-        "bounded, not exact: free up to the limit; past it by %.2g deg in contact, or nearer to it than some "
+        "bounded, not exact: free up to the limit; past it by %s deg in contact, or nearer to it than some "
         "micrometres",
-        error_bound_deg);
+        error_bound_deg.c_str());
   if (limit.translation_ends && !limit.translation_mm)
     return "none: no contact carries the load at the start";
   if (limit.translation_ends)
@@ -76,8 +77,8 @@ std::string guarantee_text(const motion::MotionLimit& limit) {
                            limit.end.turned.degrees());
   switch (limit.end.reason) {
     case motion::LimitReason::contact:
-      return core::formatted("free before the limit; in contact at it or past it by at most %.2g deg",
-                             error_bound_deg);
+      return core::formatted("free before the limit; in contact at it or past it by at most %s deg",
+                             error_bound_deg.c_str());
     case motion::LimitReason::end_of_range:
       return core::formatted("free over the whole range of %g deg", limit.motion.range.degrees());
     case motion::LimitReason::contact_at_start:
@@ -85,8 +86,8 @@ std::string guarantee_text(const motion::MotionLimit& limit) {
     case motion::LimitReason::ligament:
       return core::formatted(
           "free and no ligament strained beyond its end before the limit; one is at it or past it by at most "
-          "%.2g deg",
-          error_bound_deg);
+          "%s deg",
+          error_bound_deg.c_str());
     case motion::LimitReason::strained_at_start:
       return "a ligament is strained beyond its end before any rotation";
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <string>
 
 #include "condyle/pose.hpp"
@@ -18,6 +19,15 @@ inline std::string rounded(double value, int decimals) {
 inline std::string rounded(const Vec3& p, int decimals) {
   return "(" + rounded(p.x(), decimals) + ", " + rounded(p.y(), decimals) + ", " + rounded(p.z(), decimals) +
          ")";
+}
+
+/// A bound in one or two significant digits, for people: never below it, as rounding to the nearest may be.
+inline std::string at_most(double bound, int digits) {
+  double value = bound;
+  std::string text = formatted("%.*g", digits, value);
+  // A step of one in a hundred passes over no number of so few digits.
+  while (std::strtod(text.c_str(), nullptr) < bound) text = formatted("%.*g", digits, value *= 1.01);
+  return text;
 }
 
 }  // namespace condyle::core

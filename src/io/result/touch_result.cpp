@@ -8,6 +8,7 @@
 
 #include "answer/records/touch_record.hpp"
 #include "condyle/version.hpp"
+#include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
@@ -133,19 +134,19 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
   if (record.intersecting_pairs > 0)
     text += fmt::format("  pairs of triangles that meet: {}\n", record.intersecting_pairs);
   if (const auto& deepest = record.deepest)
-    text += fmt::format("  deepest: {:.6g} mm{}, at {} of {}, out along {}\n", deepest->depth_mm,
-                        deepest->error_mm > 1e-6 * deepest->depth_mm
-                            ? fmt::format(" (no place is deeper by more than {:.1g} mm)", deepest->error_mm)
-                            : "",
-                        xyz_text(deepest->place_mm), file_in_role(files, deepest->body).string(),
-                        xyz_text(deepest->normal));
-  else if (record.depth_bound_mm)
     text += fmt::format(
-        "  deepest: none found; no place of a surface is deeper in the other body than {:.1g} mm\n",
-        *record.depth_bound_mm);
+        "  deepest: {:.6g} mm{}, at {} of {}, out along {}\n", deepest->depth_mm,
+        deepest->error_mm > 1e-6 * deepest->depth_mm
+            ? fmt::format(" (no place is deeper by more than {} mm)", core::at_most(deepest->error_mm, 1))
+            : "",
+        xyz_text(deepest->place_mm), file_in_role(files, deepest->body).string(), xyz_text(deepest->normal));
+  else if (record.depth_bound_mm)
+    text +=
+        fmt::format("  deepest: none found; no place of a surface is deeper in the other body than {} mm\n",
+                    core::at_most(*record.depth_bound_mm, 1));
   if (record.volume_mm3)
-    text += fmt::format("  penetration volume: {:.6g} mm3, off by {:.1g} at most\n", *record.volume_mm3,
-                        *record.volume_error_mm3);
+    text += fmt::format("  penetration volume: {:.6g} mm3, off by {} at most\n", *record.volume_mm3,
+                        core::at_most(*record.volume_error_mm3, 1));
   const auto add_again = [&](const std::filesystem::path& path, const std::optional<double>& again) {
     if (again.value_or(0) > 0)
       text += fmt::format(
