@@ -68,6 +68,11 @@ Vec3 middle_of_corners(const std::vector<Vec3>& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
+/// At a right angle to a flat piece.
+Vec3 across_corners(const std::vector<Vec3>& corners) {
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+}
+
 double radius_about(const std::vector<Vec3>& corners, const Vec3& middle) {
   double radius = 0;
   for (const Vec3& p : corners) radius = std::max(radius, core::ordered_norm(p - middle));
@@ -225,7 +230,7 @@ class DepthSearch {
     if (!(part.bound > best_.depth_mm + tolerance_)) return;
     part.through = no_index;
     if (at.depth < -tolerance_ && part.bound > thin_share * best_.depth_mm) {
-      part.through = way_in(part, middle, radius);
+      part.through = way_in(part);
       if (part.through == no_index) return;
     }
     open_.push(std::move(part));
@@ -234,15 +239,25 @@ class DepthSearch {
   /// A triangle of T through which a piece whose middle is outside may get inside: which it may meet, and has a corner of it on its inner
   /// side. Without one all of the piece is outside, though it may touch. Pieces that touch, or end just outside of a thin overlap, would
   /// be cut until they are as small as the depth.
-  Index way_in(const SurfacePart& part, const Vec3& middle, double radius) const {
+  Index way_in(const SurfacePart& part) const {
+    Vec3 low = part.corners[0], high = low;
+    for (const Vec3& p : part.corners) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const Vec3 across = across_corners(part.corners);
+    const auto may_meet = [&](const Node& node) {
+      double beside = 0, reach = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double centre = node.centre[k], half = node_slack * node.half[k] + tolerance_;
+        if (centre - half > high[k] || centre + half < low[k]) return false;
+        beside += across[k] * (centre - part.corners[0][k]);
+        reach += std::abs(across[k]) * half;
+      }
+      return std::abs(beside) <= reach;
+    };
     std::vector<Index> open = {0};
     while (!open.empty()) {
       const Node& node = target_.nodes()[open.back()];
       open.pop_back();
-      Vec3 off = Vec3::Zero();
-      for (int k = 0; k < 3; ++k)
-        off[k] = std::max(0.0, std::abs(middle[k] - node.centre[k]) - node_slack * node.half[k]);
-      if (off.squaredNorm() > radius * radius) continue;
+      if (!may_meet(node)) continue;
       if (!node.is_leaf()) {
         open.insert(open.end(), {node.child, node.child + 1});
         continue;
@@ -252,15 +267,16 @@ class DepthSearch {
         const LinearFunction above = plane_of(corners);
         if (std::any_of(part.corners.begin(), part.corners.end(),
                         [&](const Vec3& p) { return above(p) < -tolerance_; }) &&
-            distance_to(middle, corners) <= radius && !are_separated(part.corners, corners, above.n))
+            !are_separated(part.corners, across, corners, above.n))
           return t;
       }
     }
     return no_index;
   }
 
-  /// Whether a plane at a right angle to a piece or to an edge of it or of a triangle with normal n, in its plane, keeps them apart.
-  bool are_separated(const std::vector<Vec3>& piece, const CornerPoints& t, const Vec3& n) const {
+  /// Whether the plane of a piece, to which `across` is a right angle, or one through an edge of it or of a triangle with normal n keeps them apart.
+  bool are_separated(const std::vector<Vec3>& piece, const Vec3& across, const CornerPoints& t,
+                     const Vec3& n) const {
     const auto apart_along = [&](const Vec3& axis) {
       const auto extent = [&](const auto& points) {
         double low = points[0].dot(axis), high = low;
@@ -269,9 +285,8 @@ class DepthSearch {
       };
       const auto [piece_low, piece_high] = extent(piece);
       const auto [low, high] = extent(t);
-      return std::max(low - piece_high, piece_low - high) > tolerance_ * axis.norm();
+      return std::max(low - piece_high, piece_low - high) > tolerance_ * core::ordered_norm(axis);
     };
-    const Vec3 across = (piece[1] - piece[0]).cross(piece[2] - piece[0]);
     if (apart_along(across)) return true;
     for (std::size_t k = 0; k < piece.size(); ++k)
       if (apart_along((piece[(k + 1) % piece.size()] - piece[k]).cross(across))) return true;
