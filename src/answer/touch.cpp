@@ -17,7 +17,6 @@
 #include "mesh/findings.hpp"
 #include "mesh/surface_pieces.hpp"
 #include "mesh/surface_to_surface.hpp"
-#include "mesh/triangle_intersection.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/winding_number.hpp"
 
@@ -242,17 +241,6 @@ class Touch {
 };
 
 }  // namespace
-
-void require_surface(const Mesh& mesh, const std::string& body) {
-  if (mesh.triangles().empty()) throw MeshError(body + " has no triangle");
-  const auto has_area = [&](const Triangle& t) {
-    const mesh::TriangleCorners corners = {mesh.vertices()[t[0]], mesh.vertices()[t[1]],
-                                           mesh.vertices()[t[2]]};
-    return mesh::contains_coplanar(corners, corners[0]);  // without an area it contains nothing
-  };
-  if (std::none_of(mesh.triangles().begin(), mesh.triangles().end(), has_area))
-    throw MeshError(body + " has no triangle with an area");
-}
 
 TouchAnswer answer_touch(const contact::JointContact& bodies, const TouchRequest& request) {
   require_surfaces(bodies.fixed(), bodies.mobile());
