@@ -17,6 +17,7 @@
 #include "mesh/edge_table.hpp"
 #include "mesh/vertex_triangles.hpp"
 #include "support/cup.hpp"
+#include "support/random_pose.hpp"
 #include "support/test_meshes.hpp"
 
 /// Contacts that follow deforming bodies answer as those made anew.
@@ -126,15 +127,6 @@ void expect_same(const ElasticContactResults& a, const ElasticContactResults& b)
   EXPECT_EQ(a.energy_nmm, b.energy_nmm);
 }
 
-Pose random_pose(std::mt19937& random, double shift) {
-  std::normal_distribution<double> normal;
-  const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(normal(random), vector().normalized()).toRotationMatrix();
-  X.translation() = shift * vector();
-  return X;
-}
-
 /// Moves all or some vertices of one body of the contact, and of its mesh.
 template <class Contact>
 void step(int i, Deforming& fixed, Deforming& mobile, Contact& contact) {
@@ -161,7 +153,7 @@ TEST(Update, AJointContactAnswersAsOneMadeAnewFor600RandomDeformations) {
       if (i % 3 == 0) contact.radial(Pose::Identity());  // some tables are made, and follow
       step(i, fixed, mobile, contact);
       const JointContact anew(fixed.mesh(), mobile.mesh());
-      const Pose X = random_pose(random, 0.3);
+      const Pose X = test::random_pose(random, 0.3);
       expect_same(contact, anew, X);
       if (i % 100 == 0) {
         EXPECT_EQ(contact.radial(X).mobile_in_fixed, anew.radial(X).mobile_in_fixed);
@@ -196,7 +188,7 @@ TEST(Update, AnElasticContactAnswersAsOneMadeAnewFor400RandomDeformations) {
         const ElasticContact anew(fixed.mesh(), mobile.mesh(), options);
         // Asked often enough of one surface, what is inside is found first.
         for (int k = 0; k < (i % 25 == 0 ? 20 : 1); ++k) {
-          const Pose X = random_pose(random, 0.2);
+          const Pose X = test::random_pose(random, 0.2);
           const auto expected = anew.at(X);
           expect_same(contact.at(X), expected);
           faces += expected.fixed->faces.size();

@@ -10,6 +10,7 @@
 
 #include "core/rotation_about.hpp"
 #include "kinematics/ligament_path.hpp"
+#include "support/random_pose.hpp"
 
 namespace condyle {
 namespace {
@@ -63,15 +64,6 @@ double length_over_cylinder(double r, const Vec3& a, const Vec3& b) {
     return std::hypot(from_a, za - a.z()) + std::hypot(arc, zb - za) + std::hypot(from_b, b.z() - zb);
   };
   return least([&](double za) { return least([&](double zb) { return length(za, zb); }); });
-}
-
-Pose random_pose(std::mt19937& random, double far) {
-  std::normal_distribution<double> normal;
-  Pose X = Pose::Identity();
-  X.linear() = core::rotation_about(Vec3(normal(random), normal(random), normal(random)).normalized(),
-                                    3 * normal(random));
-  X.translation() = far * Vec3(normal(random), normal(random), normal(random));
-  return X;
 }
 
 /// Strings of all kinds whose ends are outside of what they wrap.
@@ -175,7 +167,7 @@ TEST(Ligament, PullsTheMobileBodyByTheSlopeOfItsEnergy) {
   int taut = 0, wrapped = 0;
   for (int i = 0; i < 3000; ++i) {
     const Ligament ligament = random_ligament(random);
-    const Pose X = random_pose(random, 3);
+    const Pose X = test::random_pose(random, 3);
     const auto state = ligament_state(ligament, X);
     if (!state || state->strain < 0.01) continue;
     ++taut, wrapped += state->wraps;
@@ -218,7 +210,7 @@ TEST(Ligament, StiffensByTheSlopeOfItsTensionAlongItAndByItsTensionAcross) {
   for (int i = 0; i < 200; ++i) {
     const auto point = [&] { return Vec3(60 * normal(random), 60 * normal(random), 60 * normal(random)); };
     Ligament ligament = straight_ligament(point(), point());
-    const Pose X = random_pose(random, 5);
+    const Pose X = test::random_pose(random, 5);
     const Vec3 end = posed(X, ligament.mobile.front()), along = end - ligament.fixed.front();
     const double length = along.norm(), strain = 0.12;
     ligament.slack_length_mm = length / (1 + strain);
@@ -245,7 +237,7 @@ TEST(Ligament, StiffensOverAWrapByTheSecondSlopeOfItsEnergy) {
   int wrapped = 0;
   for (int i = 0; i < 2000; ++i) {
     Ligament ligament = random_ligament(random);
-    const Pose X = random_pose(random, 3);
+    const Pose X = test::random_pose(random, 3);
     const auto state = ligament_state(ligament, X);
     if (!state || !state->wraps) continue;
     ligament.slack_length_mm = state->length_mm / 1.15;
@@ -282,7 +274,7 @@ TEST(Ligament, IsDrawnAlongItsPath) {
   int wrapped = 0;
   for (int i = 0; i < 300; ++i) {
     const Ligament ligament = random_ligament(random);
-    const Pose X = random_pose(random, 3);
+    const Pose X = test::random_pose(random, 3);
     const auto state = ligament_state(ligament, X);
     if (!state) continue;
     wrapped += state->wraps;
