@@ -53,6 +53,15 @@ function(condyle_bind_at_start target)
   endif()
 endfunction()
 
+# Of programs and shared libraries: what the core calls of Highway's library is in them. That library measures its clock whenever a process
+# loads it, which took 40 % of what a command takes to start: docs/decisions/0032-static-command.md.
+function(condyle_do_without_highway_library target)
+  if(condyle_highway)  # The core has it otherwise.
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src/simd/highway_targets.cpp)
+    target_link_options(${target} PRIVATE LINKER:--as-needed)
+  endif()
+endfunction()
+
 # Has the headers that most files of a target include compiled once for all of them: condyle_precompile(target [FEW_UNITS]
 # header...). With FEW_UNITS not where sources compile several at a time: to precompile then takes longer than it spares.
 # What keeps forgotten includes from passing unseen: docs/decisions/0006-faster-builds.md.

@@ -55,7 +55,7 @@ function writtenAtLast(write) {
 // V8 names on standard error a flag that it does not know.
 const terminals = [0, 1, 2].map(isTerminal);
 if (parseInt(process.versions.node) <= 24)
-  for (const flag of ["--wasm-lazy-compilation", "--wasm-lazy-validation", "--wasm-tiering-budget=500000000"]) setFlagsFromString(flag);
+  for (const flag of ["--wasm-lazy-compilation", "--wasm-lazy-validation", "--wasm-tiering-budget=2000000000"]) setFlagsFromString(flag);
 condyle({
   wasmBinary: beside("condyle.wasm"),
   zlib: { ZStream, zlibDeflate, zlibDeflateEnd, zlibDeflateInit2, zlibInflate, zlibInflateEnd, zlibInflateInit2, zlibInflateReset },
