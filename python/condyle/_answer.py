@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+from decimal import ROUND_CEILING, Context
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Optional, TypeVar
 
@@ -74,6 +75,11 @@ class Columns:
         return xarray.Dataset({name: (self._dimension, values) for name, values in self._columns().items()})
 
     _dimension = "entry"
+
+
+def at_most(bound: float) -> str:
+    """A bound in one digit, never below it, as the command says it: 3e-08."""
+    return f"{float(Context(prec=1, rounding=ROUND_CEILING).create_decimal_from_float(bound)):.1g}"
 
 
 def html_of(title: str, rows: list[tuple[str, str]]) -> str:

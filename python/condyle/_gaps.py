@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Callable, Generic, Optional, TypeVar, get
 import numpy as np
 from numpy.typing import NDArray
 
-from ._answer import Columns, html_of
+from ._answer import Columns, at_most, html_of
 from ._mesh import TriMesh
 from ._words import Way
 
@@ -215,7 +215,7 @@ class ContactMeasures:
             if patch is not None and patch.mean_depth_mm is not None:
                 rows.append((f"{name} patch", f"{patch.area_mm2:.6g} mm2, mean depth {patch.mean_depth_mm:.6g} mm"))
         if self.volume_mm3 is not None:
-            rows.append(("overlap", f"{self.volume_mm3:.6g} mm3, to within {self.volume_error_mm3:.0e}"))
+            rows.append(("overlap", f"{self.volume_mm3:.6g} mm3, to within {at_most(self.volume_error_mm3)}"))
         for name, again in (("mobile", self.mobile_covered_again_mm3), ("fixed", self.fixed_covered_again_mm3)):
             if again > 0:
                 rows.append((f"{name} covers again", f"{again:.3g} mm3 about the overlap: it may count twice"))

@@ -68,9 +68,12 @@ Vec3 middle_of_corners(const std::vector<Vec3>& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
-/// At a right angle to a flat piece.
-Vec3 across_corners(const std::vector<Vec3>& corners) {
-  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+/// Least and greatest place of points along an axis.
+template <class Points>
+std::pair<double, double> extent_along(const Vec3& axis, const Points& points) {
+  double low = points[0].dot(axis), high = low;
+  for (const Vec3& p : points) low = std::min(low, p.dot(axis)), high = std::max(high, p.dot(axis));
+  return {low, high};
 }
 
 double radius_about(const std::vector<Vec3>& corners, const Vec3& middle) {
@@ -242,16 +245,18 @@ class DepthSearch {
   Index way_in(const SurfacePart& part) const {
     Vec3 low = part.corners[0], high = low;
     for (const Vec3& p : part.corners) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    const Vec3 across = across_corners(part.corners);
+    const Vec3 across = (part.corners[1] - part.corners[0]).cross(part.corners[2] - part.corners[0]);
+    // Not one plane: corners of a piece that was cut may lie so near each other that no axis is across it.
+    const std::pair<double, double> extent = extent_along(across, part.corners);
     const auto may_meet = [&](const Node& node) {
-      double beside = 0, reach = 0;
+      double middle = 0, reach = 0;
       for (int k = 0; k < 3; ++k) {
         const double centre = node.centre[k], half = node_slack * node.half[k] + tolerance_;
         if (centre - half > high[k] || centre + half < low[k]) return false;
-        beside += across[k] * (centre - part.corners[0][k]);
+        middle += across[k] * centre;
         reach += std::abs(across[k]) * half;
       }
-      return std::abs(beside) <= reach;
+      return middle - reach <= extent.second && middle + reach >= extent.first;
     };
     std::vector<Index> open = {0};
     while (!open.empty()) {
@@ -274,17 +279,13 @@ class DepthSearch {
     return no_index;
   }
 
-  /// Whether the plane of a piece, to which `across` is a right angle, or one through an edge of it or of a triangle with normal n keeps them apart.
+  /// Whether a plane at a right angle to `across`, or to that and an edge of a piece, or in which an edge of a triangle and its normal n lie,
+  /// keeps them apart.
   bool are_separated(const std::vector<Vec3>& piece, const Vec3& across, const CornerPoints& t,
                      const Vec3& n) const {
     const auto apart_along = [&](const Vec3& axis) {
-      const auto extent = [&](const auto& points) {
-        double low = points[0].dot(axis), high = low;
-        for (const Vec3& p : points) low = std::min(low, p.dot(axis)), high = std::max(high, p.dot(axis));
-        return std::pair(low, high);
-      };
-      const auto [piece_low, piece_high] = extent(piece);
-      const auto [low, high] = extent(t);
+      const auto [piece_low, piece_high] = extent_along(axis, piece);
+      const auto [low, high] = extent_along(axis, t);
       return std::max(low - piece_high, piece_low - high) > tolerance_ * core::ordered_norm(axis);
     };
     if (apart_along(across)) return true;

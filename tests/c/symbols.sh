@@ -11,5 +11,5 @@ declared=$(grep -oE '^CONDYLE_API .*' -A1 "$sources/include/condyle/condyle.h" |
 [ -n "$declared" ] || fail "condyle.h declares nothing?"
 diff <(echo "$declared") <(echo "$shown") || fail "< declared, > shown"
 [ "$(objdump -p "$library" | awk '/SONAME/ { print $2 }')" = libcondyle_c.so.1 ] || fail "the library has another name"
-others=$(objdump -p "$library" | awk '/NEEDED/ { print $2 }' | grep -vE '^(libtbb\.so\.12|libhwy\.so\.1|libstdc\+\+\.so\.6|libm\.so\.6|libgcc_s\.so\.1|libc\.so\.6|ld-linux.*)$' || true)
+others=$(objdump -p "$library" | awk '/NEEDED/ { print $2 }' | grep -vE '^(libtbb\.so\.12|libstdc\+\+\.so\.6|libm\.so\.6|libgcc_s\.so\.1|libc\.so\.6|ld-linux.*)$' || true)
 [ -z "$others" ] || fail "the library loads $(xargs <<<"$others")"

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 
 import numpy as np
@@ -112,6 +113,9 @@ def compare_reliable(said, joint, named, method):
     assert said["nearest_distance_mm"] == measures.smallest_gap_mm
     assert said["contact"]["volume_mm3"] == measures.volume_mm3
     assert said["contact"]["volume_error_mm3"] == measures.volume_error_mm3
+    if measures.volume_mm3 is not None:  # its bound is rounded up in words
+        in_words = float(re.search(r"to within (.+?)[;)]", repr(measures))[1])
+        assert measures.volume_error_mm3 <= in_words <= 2 * measures.volume_error_mm3
     assert said["contact"]["mobile"]["area_mm2"] == measures.mobile.area_mm2
     assert said["contact"]["fixed"]["mean_depth_mm"] == measures.fixed.mean_depth_mm
 

@@ -42,6 +42,11 @@ test("where bearing contact counts, contact that ends motions is not called impi
   const { page } = await openPage(browser, pathOf("counted"));
   await turnTo(page, { flexion: 140 });
   assert.match(await saidOf(page, "contact"), /^In contact/);
+  // The bound of the volume is rounded up.
+  await page.waitForFunction(() => /to within/.test(document.getElementById("depth").textContent));
+  const inWords = Number((await page.locator("#depth").textContent()).match(/to within ([^;]+)/)[1]);
+  const { volumeError_mm3 } = await page.evaluate((at) => condyle.query({ of: "depth", at }), { angles: [140, 0, 0], translation: [0, 0, 0] });
+  assert.ok(inWords >= volumeError_mm3 && inWords < 2 * volumeError_mm3, `to within ${inWords}, of ${volumeError_mm3}`);
   await page.context().close();
 });
 

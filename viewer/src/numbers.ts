@@ -17,6 +17,13 @@ export function plain(value: number, digits = 1): string {
   return String(Number(value.toFixed(digits))).replace("-", minusSign);
 }
 
+/// A bound in one digit, never below it: 3e-8.
+export function atMost(bound: number): string {
+  let value = bound, text = bound.toExponential(0);
+  while (Number(text) < bound) text = (value *= 1.01).toExponential(0);
+  return text;
+}
+
 /// The number in typed text, with either minus sign and a decimal point or comma; null for anything else.
 export function typed(text: string): number | null {
   const said = text.trim().replaceAll(minusSign, "-").replace(",", ".").replace(/°$/, "");

@@ -279,8 +279,8 @@ export const words = {
   withoutDepth: (count: number) => `${count} vertices inside have no depth along their ray or an arc`,
   contactArea: (area_mm2: number, body: string) => `${area_mm2.toFixed(1)} mm² of ${body}`,
   contactAreas: (areas: string) => `contact area ${areas}`,
-  penetrationVolume: (volume_mm3: number, error_mm3: number) =>
-    `penetration volume ${volume_mm3.toFixed(2)} mm³, to within ${error_mm3.toExponential(0)}`,
+  penetrationVolume: (volume_mm3: number, within_mm3: string) =>
+    `penetration volume ${volume_mm3.toFixed(2)} mm³, to within ${within_mm3}`,
   coveredAgain: (volume_mm3: number) =>
     `a body overlaps itself in ${volume_mm3.toPrecision(3)} mm³ around the contact: the volume may count that space twice`,
   pairsCount: (count: number) => `${count} pairs of triangles in contact`,

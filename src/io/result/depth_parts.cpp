@@ -80,8 +80,8 @@ std::string measures_text(const DepthQuestion& question, const contact::ContactM
     text += fmt::format("  contact area:{}, centred {}\n", areas,
                         place_text(question.frame().fixed_point(*measures.centroid)));
   if (measures.centroid && measures.volume_mm3)
-    text += fmt::format("  penetration volume: {} mm3, to within {:.0e}\n",
-                        core::rounded(*measures.volume_mm3, 4), measures.volume_error_mm3);
+    text += fmt::format("  penetration volume: {} mm3, to within {}\n",
+                        core::rounded(*measures.volume_mm3, 4), core::at_most(measures.volume_error_mm3, 1));
   const auto add_again = [&](const Body& body, double covered_again_mm3) {
     if (covered_again_mm3 > 0)
       text += fmt::format(

@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
@@ -189,8 +190,9 @@ std::string between_text(const motion::RecordedContact& between) {
     const auto end = [](const motion::ContactEnd& at, const char* of_recording) {
       return fmt::format("{:.6f} s{}", at.time_s,
                          at.kind == motion::ContactEndKind::recording ? of_recording
-                         : at.uncertainty_s > 0 ? fmt::format(" within {:.1e} s", at.uncertainty_s)
-                                                : "");
+                         : at.uncertainty_s > 0
+                             ? fmt::format(" within {} s", core::at_most(at.uncertainty_s, 2))
+                             : "");
     };
     text += fmt::format("    from {} to {}{}\n", end(contact.entry, " (recording begins)"),
                         end(contact.exit, " (recording ends)"), contact.is_certain ? "" : ", possible only");

@@ -1,6 +1,6 @@
 import { button, html, named, namesOf, spaced, svg } from "../dom";
 import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
-import { fixed, plain } from "../numbers";
+import { atMost, fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
 import { hasLimits, heldOf, shownBand } from "../result";
 import { prefersStill } from "../scene/camera_turn";
@@ -212,7 +212,7 @@ export class MotionPanel {
       return area ? [words.contactArea(area, bodies[body])] : [];
     });
     if (areas.length) lines.push(words.contactAreas(areas.join(", ")));
-    if (volume_mm3 !== null) lines.push(words.penetrationVolume(volume_mm3, volumeError_mm3!));
+    if (volume_mm3 !== null) lines.push(words.penetrationVolume(volume_mm3, atMost(volumeError_mm3!)));
     if (coveredAgain_mm3) lines.push(words.coveredAgain(coveredAgain_mm3));
     this.depth.textContent = lines.join("; ");
     this.lastDepth = depth;
