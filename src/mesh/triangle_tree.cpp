@@ -295,10 +295,10 @@ const std::vector<Index>& TriangleTree::one_vertex_of_each_piece() const {
       return v;
     };
     for (const auto& [a, b, c] : triangles_) {
-      for (const Index other : {b, c}) {
-        const auto [low, high] = std::minmax({find(a), find(other)});
-        root[high] = low;
-      }
+      const Index i = root[a], j = root[b], k = root[c];
+      if (i == j && j == k) continue;
+      const Index p = find(i), q = find(j), r = find(k), low = std::min({p, q, r});
+      root[p] = root[q] = root[r] = root[a] = root[b] = root[c] = low;
     }
     for (Index v = 0; v < root.size(); ++v) {
       if (root[v] == v) pieces.push_back(v);
