@@ -8,11 +8,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 #include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "answer.hpp"
 #include "commands.hpp"
@@ -53,6 +58,15 @@ int refuse_for_current_exception() noexcept {
     std::fputs("condyle: out of memory\n", stderr);
     return condyle::io::internal_error;
   }
+}
+
+/// What is freed is kept for what is made next: the system clears every page that it hands out, and a command soon ends.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int largest_kept = 32 << 20;  // The C library keeps no larger block.
+  mallopt(M_MMAP_THRESHOLD, largest_kept), mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, 1 << 20);
+#endif
 }
 
 /// Where an exception cannot be handled: some destructors of libraries take memory, and none may fail.
@@ -217,6 +231,7 @@ int run(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   cli::hold_standard_streams();
   cli::say_when_interrupted();
   std::set_terminate(end_without_answer);
