@@ -10,11 +10,9 @@
 #include "contact/overlap.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
-#include "core/lazy.hpp"
 #include "core/ordered_sums.hpp"
 #include "core/parallel.hpp"
 #include "mesh/enclosed_volume.hpp"
-#include "mesh/findings.hpp"
 #include "mesh/surface_pieces.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "mesh/triangle_tree.hpp"
@@ -23,22 +21,13 @@
 namespace condyle {
 namespace {
 
-/// Kept with the mesh, which may be asked at many poses.
-struct KeptVolume {
-  core::Lazy<double> volume;
-};
-
-/// What a closed mesh encloses; nothing of an open one.
-std::optional<double> volume_of(const Mesh& mesh) {
-  if (!mesh.is_closed()) return std::nullopt;
-  return mesh::findings_of(mesh).get<KeptVolume>().volume.get(
-      [&](double& volume) { volume = mesh::enclosed_volume(mesh); });
-}
-
-/// Volumes and trees of both bodies are most of the work of one answer: they are made side by side, and stay with the meshes.
+/// Trees of both bodies are most of the work of one answer: they are made side by side, and stay with the meshes.
 void prepare(const contact::JointContact& bodies) {
   const auto of = [](const Mesh& mesh) {
-    return [&] { static_cast<void>(volume_of(mesh)), static_cast<void>(mesh::tree_of(mesh)); };
+    return [&] {
+      static_cast<void>(mesh.is_closed() && mesh::is_inside_out(mesh));
+      static_cast<void>(mesh::tree_of(mesh)->one_vertex_of_each_piece());
+    };
   };
   core::parallel_pair(of(bodies.fixed()), of(bodies.mobile()));
 }
@@ -51,13 +40,12 @@ std::optional<Index> inverted_piece(const Mesh& mesh) {
 
 /// Whether a mesh has an inside that means one: closed, its normals outwards. Notes why not.
 bool is_solid(const Mesh& mesh, BodyRole role, std::vector<JointNote>& notes) {
-  const std::optional<double> volume = volume_of(mesh);
   const std::string body = role == BodyRole::fixed ? "the fixed body" : "the mobile body";
-  if (!volume)
+  if (!mesh.is_closed())
     notes.push_back({JointNoteCode::open_mesh,
                      body + " is open and has no inside: the surfaces are answered for, and nothing that is "
                             "inside of it"});
-  else if (*volume < 0)
+  else if (mesh::is_inside_out(mesh))
     notes.push_back({JointNoteCode::inverted_mesh,
                      body + " is inside out, its volume is negative: nothing counts as inside of it; the "
                             "repair flip_inverted turns it"});
@@ -152,14 +140,22 @@ class Touch {
   void find_deepest() {
     const Pose& X_FM = answer_.request.X_FM;
     const auto reaching = [&](BodyRole body) { return pair_.reaching(body, X_FM, answer_.pairs); };
+    std::vector<Index> mobile_reaching, fixed_reaching;
+    core::parallel_pair(
+        [&] {
+          if (fixed_is_solid_) mobile_reaching = reaching(BodyRole::mobile);
+        },
+        [&] {
+          if (mobile_is_solid_) fixed_reaching = reaching(BodyRole::fixed);
+        });
     contact::DepthSearched of_mobile, of_fixed;
     if (fixed_is_solid_)
       of_mobile =
-          contact::deepest_place(pair_.fixed_tree(), pair_.mobile_tree(), X_FM, reaching(BodyRole::mobile));
+          contact::deepest_place(pair_.fixed_tree(), pair_.mobile_tree(), X_FM, std::move(mobile_reaching));
     const double known = of_mobile.deepest ? of_mobile.deepest->depth_mm : 0;
     if (mobile_is_solid_)
       of_fixed = contact::deepest_place(pair_.mobile_tree(), pair_.fixed_tree(), inverted(X_FM),
-                                        reaching(BodyRole::fixed), known);
+                                        std::move(fixed_reaching), known);
     if (of_fixed.deepest)
       answer_.deepest = depth_of(BodyRole::fixed, *of_fixed.deepest, X_FM);
     else if (of_mobile.deepest)

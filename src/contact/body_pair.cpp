@@ -5,6 +5,7 @@
 
 #include "contact/placed_trees.hpp"
 #include "core/float_bounds.hpp"
+#include "mesh/disjoint_sets.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "mesh/vertical_ray.hpp"
 
@@ -113,6 +114,8 @@ class PlacedSolids {
   PlacedSolids(const mesh::TriangleTree& fixed, const mesh::TriangleTree& mobile, const Pose& X_FM)
       : fixed_(fixed), mobile_(mobile), X_FM_(X_FM), placed_(fixed, mobile, X_FM) {}
 
+  const PlacedTrees& placed() const noexcept { return placed_; }
+
   bool holds(BodyRole body, const Vec3& p) const {
     const auto corners_of_fixed = [&](Index t) { return fixed_.corners(t); };
     const auto corners_of_mobile = [&](Index t) { return posed_corners(mobile_, t, X_FM_); };
@@ -139,12 +142,6 @@ const std::vector<Index>& BodyPair::Body::place_of_triangle() const {
   });
 }
 
-const mesh::VertexTriangles& BodyPair::Body::triangles_at_vertices() const {
-  return triangles_at_vertices_.get([&](mesh::VertexTriangles& all) {
-    all = {tree->triangles(), tree->vertices().size()};
-  });
-}
-
 void BodyPair::Body::update(const Mesh& mesh, std::span<const char> is_moved) {
   // Held twice here; a third holder is a copy of this pair.
   if (!refitted || refitted.use_count() > 2) refitted = std::make_shared<mesh::TriangleTree>(*tree);
@@ -152,7 +149,7 @@ void BodyPair::Body::update(const Mesh& mesh, std::span<const char> is_moved) {
   refitted->refit(mesh.vertices(), is_moved);
   if (!refitted->is_worn()) return;
   *refitted = mesh::TriangleTree(mesh);
-  place_of_triangle_.make_out_of_date(), triangles_at_vertices_.make_out_of_date();
+  place_of_triangle_.make_out_of_date();
 }
 
 void BodyPair::update(BodyRole body, const Mesh& mesh, std::span<const char> is_moved) {
@@ -206,38 +203,40 @@ bool BodyPair::one_inside_other(const Pose& X_FM) const {
          (mobile_.is_closed && !mobile.empty() && any(fixed.one_vertex_of_each_piece(), in_mobile));
 }
 
-/// A triangle that meets nothing is inside with every corner or with none. So what lies inside is reached, over such triangles, from a corner
-/// of one that meets something, or is a piece by itself.
-std::vector<char> BodyPair::reaching(BodyRole body, const Pose& X_FM,
-                                     std::span<const TrianglePair> pairs) const {
+/// A triangle that meets nothing is inside with every corner or with none: corners that such triangles connect are inside together. What is inside
+/// is connected with a corner of a triangle that meets something, or is a piece by itself.
+std::vector<Index> BodyPair::reaching(BodyRole body, const Pose& X_FM,
+                                      std::span<const TrianglePair> pairs) const {
   const bool is_fixed = body == BodyRole::fixed;
   const Body& own = is_fixed ? fixed_ : mobile_;
   const BodyRole other = is_fixed ? BodyRole::mobile : BodyRole::fixed;
   const PlacedSolids solids(*fixed_.tree, *mobile_.tree, X_FM);
   const std::vector<Triangle>& triangles = own.tree->triangles();
   const std::vector<Vec3>& vertices = own.tree->vertices();
-  std::vector<char> is_reaching(triangles.size()), is_seen(vertices.size());
-  std::vector<Index> inside;
-  const auto look_at = [&](Index v) {
-    if (std::exchange(is_seen[v], true)) return;
-    if (solids.holds(other, is_fixed ? vertices[v] : posed(X_FM, vertices[v]))) inside.push_back(v);
-  };
+  std::vector<char> meets(triangles.size());
+  std::vector<Index> to_look_at = own.tree->one_vertex_of_each_piece();
   for (const TrianglePair& pair : pairs) {
     const Index t = own.place_of_triangle()[is_fixed ? pair.fixed : pair.mobile];
-    if (std::exchange(is_reaching[t], true)) continue;
-    for (const Index v : triangles[t]) look_at(v);
+    if (std::exchange(meets[t], true)) continue;
+    to_look_at.insert(to_look_at.end(), triangles[t].begin(), triangles[t].end());
   }
-  for (const Index v : own.tree->one_vertex_of_each_piece()) look_at(v);
-  while (!inside.empty()) {
-    const Index v = inside.back();
-    inside.pop_back();
-    for (const Index t : own.triangles_at_vertices().of(v)) {
-      if (std::exchange(is_reaching[t], true)) continue;
-      for (const Index w : triangles[t])
-        if (!std::exchange(is_seen[w], true)) inside.push_back(w);
+  std::vector<Index> at_other;
+  mesh::DisjointSets connected(vertices.size());
+  solids.placed().visit_leaves_at_other(body, [&](const Node& leaf) {
+    for (Index t = leaf.first; t < leaf.last; ++t) {
+      at_other.push_back(t);
+      if (meets[t]) continue;
+      connected.join(triangles[t][0], triangles[t][1]), connected.join(triangles[t][1], triangles[t][2]);
     }
+  });
+  std::vector<char> is_seen(vertices.size()), is_inside(vertices.size());  // of connected ones, the first's
+  for (const Index v : to_look_at) {
+    char& is_set_inside = is_inside[connected.find(v)];
+    if (is_set_inside || std::exchange(is_seen[v], true)) continue;
+    is_set_inside = solids.holds(other, is_fixed ? vertices[v] : posed(X_FM, vertices[v]));
   }
-  return is_reaching;
+  std::erase_if(at_other, [&](Index t) { return !meets[t] && !is_inside[connected.find(triangles[t][0])]; });
+  return at_other;
 }
 
 }  // namespace condyle::contact

@@ -8,7 +8,6 @@
 #include "condyle/contact.hpp"
 #include "core/lazy.hpp"
 #include "mesh/triangle_tree.hpp"
-#include "mesh/vertex_triangles.hpp"
 
 namespace condyle::contact {
 
@@ -36,9 +35,9 @@ class BodyPair {
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
 
   /// Which triangles of a body have a point inside the other's solid, or on it: those of `pairs`, and all that lie inside as a whole, which
-  /// meet none. A mark for each of its tree. Exact as pairs(), but that triangles without area may be marked, and what they lead to. The
-  /// other body has to be closed.
-  std::vector<char> reaching(BodyRole body, const Pose& X_FM, std::span<const TrianglePair> pairs) const;
+  /// meet none. Their places in its tree, ascending. Exact as pairs(), but that triangles without area may be among them, and what they lead to.
+  /// The other body has to be closed.
+  std::vector<Index> reaching(BodyRole body, const Pose& X_FM, std::span<const TrianglePair> pairs) const;
 
   /// Over the triangles of each body in its own frame.
   const mesh::TriangleTree& fixed_tree() const noexcept { return *fixed_.tree; }
@@ -55,12 +54,9 @@ class BodyPair {
 
     /// The place of a triangle, by its number in the mesh.
     const std::vector<Index>& place_of_triangle() const;
-    /// In places of the tree, which are near each other where triangles are.
-    const mesh::VertexTriangles& triangles_at_vertices() const;
 
    private:
     core::Lazy<std::vector<Index>> place_of_triangle_;
-    core::Lazy<mesh::VertexTriangles> triangles_at_vertices_;
   };
   bool one_inside_other(const Pose& X_FM) const;
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,7 +26,7 @@ constexpr double depth_rounding = 1e-13;
 constexpr double bound_rounding = 16;
 
 /// Points that are looked at first.
-constexpr std::size_t most_considered = 256;
+constexpr std::size_t most_considered = 64;
 
 /// Every so often a part is halved, whatever else would cut it: its size then goes to zero.
 constexpr int cuts_per_halving = 4;
@@ -43,7 +45,8 @@ struct SurfacePart {
   Index near = no_index;           ///< a triangle of T that was nearest to what it is a part of
   Index through = no_index;        ///< one through which it may get inside, if its middle is outside
   int cuts = 0;
-  bool is_inside = false;  ///< every point of it
+  bool is_inside = false;   ///< every point of it
+  bool is_sounded = false;  ///< the depth at the middle of the node is in its bound
 
   friend bool operator<(const SurfacePart& a, const SurfacePart& b) noexcept { return a.bound < b.bound; }
 };
@@ -56,6 +59,11 @@ struct Sounding {
 
 double distance_to(const Vec3& p, const CornerPoints& t) {
   return core::ordered_norm(mesh::nearest_on_triangle(p, t) - p);
+}
+
+/// Who is inside a surface is no farther from it than from a face of its box.
+double least_half_of(const Node& root) {
+  return node_slack * std::min({root.half[0], root.half[1], root.half[2]});
 }
 
 Vec3 normal_of_corners(const CornerPoints& t) {
@@ -98,14 +106,13 @@ LinearFunction plane_of(const CornerPoints& t) {
 class DepthSearch {
  public:
   DepthSearch(const mesh::TriangleTree& target, const mesh::TriangleTree& surface, const Pose& X_TS,
-              std::span<const char> reaching, double deeper_than, std::size_t most_parts)
-      : target_(target), surface_(surface), X_TS_(X_TS), distances_(target), most_parts_(most_parts) {
-    reaching_before_.reserve(surface.triangles().size() + 1);
-    for (Index t = 0; t < surface.triangles().size(); ++t) {
-      reaching_before_.push_back(static_cast<Index>(reaching_.size()));
-      if (reaching.empty() || reaching[t]) reaching_.push_back(t);
-    }
-    reaching_before_.push_back(static_cast<Index>(reaching_.size()));
+              std::vector<Index> reaching, double deeper_than, std::size_t most_parts)
+      : target_(target),
+        surface_(surface),
+        X_TS_(X_TS),
+        distances_(target),
+        reaching_(std::move(reaching)),
+        most_parts_(most_parts) {
     double size = X_TS.translation().cwiseAbs().maxCoeff();
     for (const auto* tree : {&target, &surface}) {
       const Node& root = tree->nodes().front();
@@ -118,14 +125,16 @@ class DepthSearch {
 
   DepthSearched run() {
     consider_some();
-    push_node(0, {.bound = 0});
+    push_node(0, {.bound = least_half_of(target_.nodes().front())});
     while (!open_.empty() && open_.top().bound > best_.depth_mm + tolerance_ && parts_ < most_parts_) {
-      const SurfacePart part = open_.top();
+      SurfacePart part = open_.top();
       open_.pop();
-      if (part.node != no_index)
+      if (part.node == no_index)
+        cut(part);
+      else if (part.is_sounded)
         open_node(part);
       else
-        cut(part);
+        sound_node(std::move(part));
     }
     const double bound = open_.empty() ? 0 : open_.top().bound;
     DepthSearched found{.bound_mm = std::max(bound, best_.depth_mm + bound_rounding * tolerance_)};
@@ -134,16 +143,16 @@ class DepthSearch {
   }
 
  private:
-  /// `is_inside`: that p is, is known.
-  Sounding sound(const Vec3& p, bool is_inside) {
+  Sounding sound(const Vec3& p, bool is_known_inside) {
     ++parts_;
     const double distance = distances_(p, nearest_);
-    const auto inside = [&] {
-      return mesh::winding_number(
-                 target_, p, [](const Node& node) { return node; },
-                 [&](Index t) { return target_.corners(t); }) > 0;
-    };
-    return {is_inside || inside() ? distance : -distance, nearest_};
+    return {is_known_inside || is_inside(p) ? distance : -distance, nearest_};
+  }
+
+  bool is_inside(const Vec3& p) const {
+    return mesh::winding_number(
+               target_, p, [](const Node& node) { return node; },
+               [&](Index t) { return target_.corners(t); }) > 0;
   }
 
   /// How far p is at least from T, by the box of all of it: 0 within. Most of a surface that meets T is known by it to be outside.
@@ -171,26 +180,56 @@ class DepthSearch {
     const std::size_t step = reaching_.size() / most_considered + 1;
     for (std::size_t i = 0; i < reaching_.size(); i += step) {
       const Vec3 p = posed(X_TS_, surface_.corners(reaching_[i])[0]);
-      if (!(least_outside(p) > 0)) consider(p, reaching_[i], sound(p, false));
+      if (least_outside(p) > 0) continue;
+      const Sounding at = sound(p, true);
+      if (at.depth > best_.depth_mm && is_inside(p)) consider(p, reaching_[i], at);
     }
   }
 
+  /// Places of the triangles of a node that reach into T.
+  std::span<const Index> reaching_of(const Node& node) const {
+    const Index* const end = reaching_.data() + reaching_.size();
+    const Index* const first = std::lower_bound(reaching_.data(), end, node.first);
+    return {first, std::lower_bound(first, end, node.last)};
+  }
+
+  /// About what a node holds, in T.
+  struct Ball {
+    Vec3 centre;
+    double radius;
+  };
+  Ball ball_around(const Node& node) const {
+    return {posed(X_TS_, Vec3(node.centre[0], node.centre[1], node.centre[2])),
+            node_slack * core::ordered_norm(Vec3(node.half[0], node.half[1], node.half[2]))};
+  }
+
+  /// With the bound of what it is a part of, or by the triangle that was near there: cheaper than the nearest.
   void push_node(Index number, const SurfacePart& parent) {
     const Node& node = surface_.nodes()[number];
-    if (reaching_before_[node.first] == reaching_before_[node.last]) return;
-    const Vec3 centre = posed(X_TS_, Vec3(node.centre[0], node.centre[1], node.centre[2]));
-    const double radius = node_slack * core::ordered_norm(Vec3(node.half[0], node.half[1], node.half[2]));
+    if (reaching_of(node).empty()) return;
+    const auto [centre, radius] = ball_around(node);
     if (const double off = least_outside(centre); off > 0 && !(radius - off > best_.depth_mm)) return;
-    // Cheaper than the nearest triangle is one that was near.
-    if (parent.near != no_index &&
-        !(distance_to(centre, target_.corners(parent.near)) + radius > best_.depth_mm))
-      return;
-    const Sounding at = sound(centre, parent.is_inside);
-    if (!(at.depth + radius > best_.depth_mm)) return;
-    open_.push({.bound = at.depth + radius,
-                .node = number,
-                .near = at.nearest,
-                .is_inside = parent.is_inside || at.depth > radius});
+    SurfacePart part{
+        .bound = parent.bound, .node = number, .near = parent.near, .is_inside = parent.is_inside};
+    if (part.near != no_index) {
+      if (!(distance_to(centre, target_.corners(part.near)) + radius > best_.depth_mm)) return;
+      part.bound = std::min(part.bound, farthest_of_box(part.near, node, centre));
+      if (!(part.bound > best_.depth_mm)) return;
+    }
+    open_.push(std::move(part));
+  }
+
+  /// Only once no other bound is larger: most nodes are never looked at.
+  void sound_node(SurfacePart part) {
+    const Node& node = surface_.nodes()[part.node];
+    const auto [centre, radius] = ball_around(node);
+    const Sounding at = sound(centre, part.is_inside);
+    part.is_sounded = true;
+    part.is_inside = part.is_inside || at.depth > radius;
+    part.bound = std::min(part.bound, at.depth + radius);
+    if (at.nearest != part.near) part.bound = std::min(part.bound, farthest_of_box(at.nearest, node, centre));
+    part.near = at.nearest;
+    if (part.bound > best_.depth_mm) open_.push(std::move(part));
   }
 
   void open_node(const SurfacePart& part) {
@@ -200,8 +239,7 @@ class DepthSearch {
       push_node(node.child + 1, part);
       return;
     }
-    for (Index i = reaching_before_[node.first]; i < reaching_before_[node.last]; ++i) {
-      const Index t = reaching_[i];
+    for (const Index t : reaching_of(node)) {
       const CornerPoints own = surface_.corners(t);
       push_piece({.bound = part.bound,
                   .triangle = t,
@@ -216,6 +254,21 @@ class DepthSearch {
     const CornerPoints corners = target_.corners(triangle);
     double farthest = 0;
     for (const Vec3& p : piece.corners) farthest = std::max(farthest, distance_to(p, corners));
+    return farthest;
+  }
+
+  /// The same of the box of a node, which has this centre in T. Of a flat box beside a face it is little more than the depth, where depth and
+  /// radius are as much more as the box is wide.
+  double farthest_of_box(Index triangle, const Node& node, const Vec3& centre) const {
+    const CornerPoints corners = target_.corners(triangle);
+    const auto half = [&](int k) -> Vec3 {
+      return node_slack * node.half[static_cast<std::size_t>(k)] * X_TS_.linear().col(k);
+    };
+    const Vec3 x = half(0), y = half(1), z = half(2);
+    double farthest = 0;
+    for (const double s : {-1., 1.})
+      for (const Vec3& p : {Vec3(x + y), Vec3(x - y), Vec3(y - x), Vec3(-x - y)})
+        farthest = std::max(farthest, distance_to(centre + p + s * z, corners));
     return farthest;
   }
 
@@ -370,8 +423,7 @@ class DepthSearch {
   const mesh::TriangleTree &target_, &surface_;
   const Pose& X_TS_;
   mesh::DistancesToSurface distances_;
-  std::vector<Index> reaching_;         ///< places of triangles of S, ascending
-  std::vector<Index> reaching_before_;  ///< how many of them are before a place
+  std::vector<Index> reaching_;  ///< places of triangles of S, ascending
   std::size_t most_parts_, parts_ = 0;
   double tolerance_ = 0;
   Index nearest_ = no_index;
@@ -383,10 +435,14 @@ class DepthSearch {
 }  // namespace
 
 DepthSearched deepest_place(const mesh::TriangleTree& target, const mesh::TriangleTree& surface,
-                            const Pose& X_TS, std::span<const char> reaching, double deeper_than_mm,
-                            std::size_t most_parts) {
+                            const Pose& X_TS, std::optional<std::vector<Index>> reaching,
+                            double deeper_than_mm, std::size_t most_parts) {
   if (target.empty() || surface.empty()) return {};
-  return DepthSearch(target, surface, X_TS, reaching, deeper_than_mm, most_parts).run();
+  if (!reaching) {
+    reaching.emplace(surface.triangles().size());
+    std::iota(reaching->begin(), reaching->end(), Index{0});
+  }
+  return DepthSearch(target, surface, X_TS, std::move(*reaching), deeper_than_mm, most_parts).run();
 }
 
 }  // namespace condyle::contact

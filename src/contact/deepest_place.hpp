@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "condyle/pose.hpp"
 #include "mesh/triangle_tree.hpp"
@@ -36,10 +36,10 @@ struct DepthSearched {
 /// no bound exceeds the depth of a point by more than rounding (1e-13 of the coordinates), or `most_parts` were looked at: the bound says
 /// which. `target` must be of a closed mesh with its normals outwards. Only places deeper than `deeper_than_mm` are searched for.
 ///
-/// `reaching` marks the triangles of the surface's tree that have a point inside: BodyPair::reaching(). Without marks all may, and those that lie
-/// outside as closely as they are large are looked at one by one.
+/// `reaching` are the places, in the surface's tree, of the triangles that have a point inside: BodyPair::reaching(). Without it all may, and those
+/// that lie outside as closely as they are large are looked at one by one.
 DepthSearched deepest_place(const mesh::TriangleTree& target, const mesh::TriangleTree& surface,
-                            const Pose& X_TS, std::span<const char> reaching = {}, double deeper_than_mm = 0,
-                            std::size_t most_parts = 20'000);
+                            const Pose& X_TS, std::optional<std::vector<Index>> reaching = {},
+                            double deeper_than_mm = 0, std::size_t most_parts = 20'000);
 
 }  // namespace condyle::contact

@@ -25,6 +25,10 @@ class PlacedTrees {
   template <class Visit>
   void visit_leaf_pairs(const Visit& visit) const;
 
+  /// visit(node) for each leaf of a body whose box may share a point with that of all of the other, in the order of places.
+  template <class Visit>
+  void visit_leaves_at_other(BodyRole own, const Visit& visit) const;
+
   /// A box of one body seen from the other.
   struct PlacedBox {
     Eigen::Array4f centre, half;  ///< The fourth is 0.
@@ -58,19 +62,47 @@ class PlacedTrees {
     return Eigen::Map<const Eigen::Array4f, Eigen::Aligned16>(values.data());
   }
 
+  /// By how much boxes are apart, above 0.
+  static float boxes_apart(const Node& f, const PlacedBox& f_in_m, const Node& m,
+                           const PlacedBox& m_in_f) noexcept {
+    const Eigen::Array4f in_f = (m_in_f.centre - array(f.centre)).abs() - (m_in_f.half + array(f.half));
+    const Eigen::Array4f in_m = (f_in_m.centre - array(m.centre)).abs() - (f_in_m.half + array(m.half));
+    return in_f.max(in_m).maxCoeff();
+  }
   /// One branch for all: no branch predicts which test separates. A NaN counts as meeting.
   bool may_meet(const Node& f, const PlacedBox& f_in_m, const Node& m,
                 const PlacedBox& m_in_f) const noexcept {
     const float shells = std::max(f.nearest - m.farthest, m.nearest - f.farthest) - centres_apart_;
-    const Eigen::Array4f in_f = (m_in_f.centre - array(f.centre)).abs() - (m_in_f.half + array(f.half));
-    const Eigen::Array4f in_m = (f_in_m.centre - array(m.centre)).abs() - (f_in_m.half + array(m.half));
-    return !(std::max(shells, in_f.max(in_m).maxCoeff()) > 0);
+    return !(std::max(shells, boxes_apart(f, f_in_m, m, m_in_f)) > 0);
   }
 
   const mesh::TriangleTree &fixed_, &mobile_;
   Placing to_fixed_, to_mobile_;
   float centres_apart_;
 };
+
+template <class Visit>
+void PlacedTrees::visit_leaves_at_other(BodyRole own, const Visit& visit) const {
+  if (fixed_.empty() || mobile_.empty()) return;
+  const Node &fixed_root = fixed_.nodes()[0], &mobile_root = mobile_.nodes()[0];
+  const PlacedBox fixed_in_mobile = to_mobile_.placed(fixed_root),
+                  mobile_in_fixed = to_fixed_.placed(mobile_root);
+  const auto apart = [&](const Node& node) {
+    return own == BodyRole::fixed ? boxes_apart(node, to_mobile_.placed(node), mobile_root, mobile_in_fixed)
+                                  : boxes_apart(fixed_root, fixed_in_mobile, node, to_fixed_.placed(node));
+  };
+  const auto& nodes = (own == BodyRole::fixed ? fixed_ : mobile_).nodes();
+  std::vector<Index> open = {0};
+  while (!open.empty()) {
+    const Node& node = nodes[open.back()];
+    open.pop_back();
+    if (apart(node) > 0) continue;
+    if (node.is_leaf())
+      visit(node);
+    else
+      open.insert(open.end(), {node.child + 1, node.child});
+  }
+}
 
 template <class Visit>
 void PlacedTrees::visit_leaf_pairs(const Visit& visit) const {

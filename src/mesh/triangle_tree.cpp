@@ -101,7 +101,7 @@ struct Extent {
 
 /// The nearest point of a triangle is at most (longest edge) / sqrt(3) from its nearest corner and a right
 /// angle off: |p|^2 >= min^2 - longest^2 / 3. The squares' roundings are below 16 u max^2.
-Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
+[[gnu::always_inline]] inline Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
   // Minima of pairs: a list of three would be stored and read again.
   const double a = t[0].squaredNorm(), b = t[1].squaredNorm(), c = t[2].squaredNorm();
   const double min = std::min(std::min(a, b), c), max = std::max(std::max(a, b), c);
@@ -139,7 +139,7 @@ void set_bounds(TriangleTree::Node& node, const Extent& extent) noexcept {
 class Builder {
  public:
   Builder(const TriangleTree& tree, const std::vector<KeyedTriangle>& items,
-          std::vector<TriangleTree::Node>& nodes)
+          core::UninitialisedVector<TriangleTree::Node>& nodes)
       : tree_(tree), items_(items), nodes_(nodes) {}
 
   void build() {
@@ -178,7 +178,7 @@ class Builder {
 
   const TriangleTree& tree_;
   const std::vector<KeyedTriangle>& items_;
-  std::vector<TriangleTree::Node>& nodes_;
+  core::UninitialisedVector<TriangleTree::Node>& nodes_;
 };
 
 struct KeptTree {
@@ -198,7 +198,7 @@ TriangleTree::TriangleTree(const TriMesh& mesh) {
   mesh_triangles_.resize(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) mesh_triangles_[i] = items[i].triangle;
   number_anew(mesh);
-  nodes_.reserve(items.size());
+  nodes_.reserve(items.size() / 2 + 1);
   Builder(*this, items, nodes_).build();
 }
 
@@ -270,8 +270,10 @@ void TriangleTree::number_anew(const TriMesh& mesh) {
   triangles_.resize(mesh_triangles_.size());
   mesh_vertices_.resize(mesh.vertices.size() + 1);
   // Without a branch on whether a vertex is new, which no processor predicts: each is written where the next new one goes.
+  constexpr std::size_t ahead = 16;  // What is read lies anywhere in the mesh.
   Index count = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (i + ahead < triangles_.size()) __builtin_prefetch(&mesh.triangles[mesh_triangles_[i + ahead]]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = mesh.triangles[mesh_triangles_[i]][k];
       mesh_vertices_[count] = v;

@@ -7,6 +7,7 @@
 
 #include "condyle/mesh.hpp"
 #include "core/lazy.hpp"
+#include "core/uninitialised.hpp"
 
 namespace condyle::mesh {
 
@@ -57,7 +58,7 @@ class TriangleTree {
   bool is_worn() const noexcept { return overlap_now_ > most_wear * overlap_made_; }
 
   bool empty() const noexcept { return triangles_.empty(); }
-  const std::vector<Node>& nodes() const noexcept { return nodes_; }
+  const core::UninitialisedVector<Node>& nodes() const noexcept { return nodes_; }
   /// Corners are places of vertices, in the mesh's order.
   const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
   const std::vector<Vec3>& vertices() const noexcept { return vertices_; }
@@ -81,7 +82,7 @@ class TriangleTree {
   /// The sizes of all boxes over that of the root.
   double overlap() const noexcept;
 
-  std::vector<Node> nodes_;
+  core::UninitialisedVector<Node> nodes_;
   std::vector<Triangle> triangles_;
   std::vector<Vec3> vertices_;
   std::vector<Index> mesh_triangles_, mesh_vertices_;

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "condyle/error.hpp"
+#include "mesh/enclosed_volume.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -22,6 +25,34 @@ TEST(RequireSolid, ASolidAndASolidWithACavityPass) {
   EXPECT_EQ(
       refusal(test::joined(test::box({-2, -2, -2}, {2, 2, 2}), test::flipped(test::sphere({0, 0, 0}, 1, 2)))),
       "");
+}
+
+TEST(IsInsideOut, SaysTheSignOfSumsOfBoxesWhoseVolumesAreWholeNumbers) {
+  std::mt19937 random(63);
+  const auto whole = [&](int most) {
+    return static_cast<double>(1 + random() % static_cast<unsigned>(most));
+  };
+  int negative = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Vec3 far = (k % 3 == 0 ? 1 << 20 : 10) * Vec3(whole(9), whole(9), whole(9));
+    TriMesh mesh;
+    double volume = 0;
+    for (int n = 0; n < 3; ++n) {
+      // The last differs from what is there by 1 at most, of 10^9: a plain sum could not say which way.
+      Vec3 sides(whole(1000), whole(1000), whole(1000));
+      if (n == 2) sides = {1, 1, std::max(1.0, std::abs(volume) + whole(3) - 2)};
+      const bool is_flipped = n == 2 ? volume > 0 : random() % 2 == 0;
+      const TriMesh box = test::box(far, far + sides);
+      mesh = mesh.triangles.empty() ? (is_flipped ? test::flipped(box) : box)
+                                    : test::joined(mesh, is_flipped ? test::flipped(box) : box);
+      volume += (is_flipped ? -1 : 1) * sides.prod();
+    }
+    negative += volume < 0;
+    if (volume != 0) {
+      EXPECT_EQ(mesh::is_inside_out(Mesh(mesh)), volume < 0) << k;
+    }
+  }
+  EXPECT_GT(negative, 50);
 }
 
 TEST(RequireSolid, AnOpenMeshIsRefusedByFileAndBoundary) {

@@ -31,7 +31,7 @@ class FeatureTree {
     Index first = 0, last = 0;
   };
 
-  const std::vector<Node>& nodes() const noexcept { return base_.nodes(); }
+  const auto& nodes() const noexcept { return base_.nodes(); }
   bool empty() const noexcept { return base_.empty(); }
 
   /// Its triangles in the same order.
