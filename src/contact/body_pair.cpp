@@ -211,22 +211,21 @@ std::vector<Index> BodyPair::reaching(BodyRole body, const Pose& X_FM,
   const Body& own = is_fixed ? fixed_ : mobile_;
   const BodyRole other = is_fixed ? BodyRole::mobile : BodyRole::fixed;
   const PlacedSolids solids(*fixed_.tree, *mobile_.tree, X_FM);
-  const std::vector<Triangle>& triangles = own.tree->triangles();
-  const std::vector<Vec3>& vertices = own.tree->vertices();
-  std::vector<char> meets(triangles.size());
-  std::vector<Index> to_look_at = own.tree->one_vertex_of_each_piece();
-  for (const TrianglePair& pair : pairs) {
-    const Index t = own.place_of_triangle()[is_fixed ? pair.fixed : pair.mobile];
-    if (std::exchange(meets[t], true)) continue;
-    to_look_at.insert(to_look_at.end(), triangles[t].begin(), triangles[t].end());
-  }
-  std::vector<Index> at_other;
+  const std::span<const Triangle> triangles = own.tree->triangles();
+  const std::span<const Vec3> vertices = own.tree->vertices();
+  std::vector<char> in_pairs(triangles.size());  // in the mesh's order
+  for (const TrianglePair& pair : pairs) in_pairs[is_fixed ? pair.fixed : pair.mobile] = true;
+  const auto meets = [&](Index t) { return in_pairs[own.tree->mesh_triangles()[t]]; };
+  std::vector<Index> at_other, to_look_at = own.tree->one_vertex_of_each_piece();
   mesh::DisjointSets connected(vertices.size());
   solids.placed().visit_leaves_at_other(body, [&](const Node& leaf) {
     for (Index t = leaf.first; t < leaf.last; ++t) {
       at_other.push_back(t);
-      if (meets[t]) continue;
-      connected.join(triangles[t][0], triangles[t][1]), connected.join(triangles[t][1], triangles[t][2]);
+      const auto [a, b, c] = triangles[t];
+      if (meets(t))
+        to_look_at.insert(to_look_at.end(), {a, b, c});
+      else
+        connected.join(a, b), connected.join(b, c);
     }
   });
   std::vector<char> is_seen(vertices.size()), is_inside(vertices.size());  // of connected ones, the first's
@@ -235,7 +234,7 @@ std::vector<Index> BodyPair::reaching(BodyRole body, const Pose& X_FM,
     if (is_set_inside || std::exchange(is_seen[v], true)) continue;
     is_set_inside = solids.holds(other, is_fixed ? vertices[v] : posed(X_FM, vertices[v]));
   }
-  std::erase_if(at_other, [&](Index t) { return !meets[t] && !is_inside[connected.find(triangles[t][0])]; });
+  std::erase_if(at_other, [&](Index t) { return !meets(t) && !is_inside[connected.find(triangles[t][0])]; });
   return at_other;
 }
 

@@ -34,6 +34,10 @@ constexpr int cuts_per_halving = 4;
 /// Pieces that may be deeper by this factor than any place yet are worth a look at whether they are inside at all.
 constexpr double thin_share = 4;
 
+/// Of a node whose radius is more than so many best depths, and than this share of the target, the depth at its middle tells less than a look
+/// at its halves.
+constexpr double large_depths = 1.5, large_share = 0.1;
+
 /// Bounds of nodes are in single precision, and cover what they hold after they are posed.
 constexpr double node_slack = 1 + 1e-5;
 
@@ -223,6 +227,9 @@ class DepthSearch {
   void sound_node(SurfacePart part) {
     const Node& node = surface_.nodes()[part.node];
     const auto [centre, radius] = ball_around(node);
+    if (!node.is_leaf() && radius > std::max(large_depths * best_.depth_mm,
+                                             large_share * least_half_of(target_.nodes().front())))
+      return open_node(part);
     const Sounding at = sound(centre, part.is_inside);
     part.is_sounded = true;
     part.is_inside = part.is_inside || at.depth > radius;

@@ -7,7 +7,7 @@
 
 namespace condyle::core {
 
-/// Memory for large arrays that are read here and there: from 2 MB on in large pages where the system has
+/// Memory for large arrays that are read here and there: from 1 MB on in large pages where the system has
 /// them. A table of 10 MB lies on 2500 small pages, more than a processor keeps the addresses of: finding a
 /// page then takes as long as reading from it (a query of 150000 triangles took 1.5 times as long).
 void* allocate_large(std::size_t bytes);

@@ -26,25 +26,28 @@ struct KeyedTriangle {
   Index triangle;
 };
 
-/// Every third bit from the ten of a number.
-constexpr std::uint32_t spread(std::uint32_t bits) noexcept {
-  bits = (bits | bits << 16) & 0x030000ffu;
-  bits = (bits | bits << 8) & 0x0300f00fu;
-  bits = (bits | bits << 4) & 0x030c30c3u;
-  return (bits | bits << 2) & 0x09249249u;
+/// Every third bit from the ten of a number, of two numbers at once in the halves of a word.
+constexpr std::uint64_t spread(std::uint64_t bits) noexcept {
+  bits = (bits | bits << 16) & 0x030000ff'030000ffu;
+  bits = (bits | bits << 8) & 0x0300f00f'0300f00fu;
+  bits = (bits | bits << 4) & 0x030c30c3'030c30c3u;
+  return (bits | bits << 2) & 0x09249249'09249249u;
 }
 
 struct Cube {
   Vec3 low;
   double steps_per_mm;
 
-  std::uint32_t key_of(const Vec3& p) const noexcept {
+  /// Of the centroid of three points.
+  std::uint32_t key_of(const Vec3& a, const Vec3& b, const Vec3& c) const noexcept {
     constexpr double last = (1 << bits_per_axis) - 1;
-    const auto step = [&](int axis) {
-      // Not a number, where coordinates overflow, ends at 0: any order is a right one.
-      return static_cast<std::uint32_t>(std::max(0.0, std::min(last, (p[axis] - low[axis]) * steps_per_mm)));
+    const auto step = [&](int axis) -> std::uint64_t {
+      const double steps = (a[axis] + b[axis] + c[axis] - 3 * low[axis]) * (steps_per_mm / 3);
+      // Not a number, where coordinates overflow, ends anywhere: any order is a right one.
+      return static_cast<std::uint32_t>(static_cast<int>(std::max(0.0, std::min(last, steps))));
     };
-    return spread(step(0)) << 2 | spread(step(1)) << 1 | spread(step(2));
+    const std::uint64_t of_xy = spread(step(0) << 32 | step(1));
+    return static_cast<std::uint32_t>(of_xy >> 30 | of_xy << 1 | spread(step(2)));
   }
 };
 
@@ -81,7 +84,7 @@ std::vector<KeyedTriangle> in_order_of_the_curve(const TriMesh& mesh) {
   const Cube cube = cube_around(mesh);
   std::vector<KeyedTriangle> items(mesh.triangles.size());
   for (Index t = 0; t < items.size(); ++t) {
-    items[t] = {cube.key_of((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3), t};
+    items[t] = {cube.key_of(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)), t};
   }
   sort_by_key(items);
   return items;
@@ -283,8 +286,8 @@ void TriangleTree::number_anew(const TriMesh& mesh) {
     }
   }
   mesh_vertices_.resize(count);
-  vertices_.reserve(count);
-  for (const Index v : mesh_vertices_) vertices_.push_back(mesh.vertices[v]);
+  vertices_.resize(count);
+  for (Index i = 0; i < count; ++i) vertices_[i] = mesh.vertices[mesh_vertices_[i]];
 }
 
 /// Union by smallest number.

@@ -60,8 +60,8 @@ class TriangleTree {
   bool empty() const noexcept { return triangles_.empty(); }
   const core::UninitialisedVector<Node>& nodes() const noexcept { return nodes_; }
   /// Corners are places of vertices, in the mesh's order.
-  const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
-  const std::vector<Vec3>& vertices() const noexcept { return vertices_; }
+  std::span<const Triangle> triangles() const noexcept { return triangles_; }
+  std::span<const Vec3> vertices() const noexcept { return vertices_; }
   /// Numbers in the mesh the tree was built from.
   const std::vector<Index>& mesh_triangles() const noexcept { return mesh_triangles_; }
   const std::vector<Index>& mesh_vertices() const noexcept { return mesh_vertices_; }
@@ -83,8 +83,8 @@ class TriangleTree {
   double overlap() const noexcept;
 
   core::UninitialisedVector<Node> nodes_;
-  std::vector<Triangle> triangles_;
-  std::vector<Vec3> vertices_;
+  core::UninitialisedVector<Triangle> triangles_;
+  core::UninitialisedVector<Vec3> vertices_;
   std::vector<Index> mesh_triangles_, mesh_vertices_;
   core::Lazy<std::vector<Index>> piece_vertices_;
   double overlap_made_ = 0, overlap_now_ = 0;  ///< from the first refit on

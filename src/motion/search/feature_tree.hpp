@@ -39,9 +39,9 @@ class FeatureTree {
 
   /// Corners and ends are slots of vertices: corners in the mesh's order, ends in ascending order of the
   /// mesh's numbers, so that what is computed from a feature does not depend on the tree.
-  const std::vector<Triangle>& triangles() const noexcept { return base_.triangles(); }
+  std::span<const Triangle> triangles() const noexcept { return base_.triangles(); }
   const std::vector<std::array<Index, 2>>& edges() const noexcept { return edges_; }
-  const std::vector<Vec3>& vertices() const noexcept { return base_.vertices(); }
+  std::span<const Vec3> vertices() const noexcept { return base_.vertices(); }
 
   /// Features that belong to a triangle.
   Range edges_of(Index triangle) const noexcept {
