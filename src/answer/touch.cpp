@@ -10,9 +10,11 @@
 #include "contact/overlap.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
+#include "core/lazy.hpp"
 #include "core/ordered_sums.hpp"
 #include "core/parallel.hpp"
 #include "mesh/enclosed_volume.hpp"
+#include "mesh/findings.hpp"
 #include "mesh/surface_pieces.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "mesh/triangle_tree.hpp"
@@ -21,11 +23,21 @@
 namespace condyle {
 namespace {
 
+/// Kept with the mesh, which may be asked at many poses.
+struct KeptSense {
+  core::Lazy<bool> is_inside_out;
+};
+
+bool is_inside_out(const Mesh& mesh) {
+  return mesh::findings_of(mesh).get<KeptSense>().is_inside_out.get(
+      [&](bool& is) { is = mesh::is_inside_out(mesh); });
+}
+
 /// Trees of both bodies are most of the work of one answer: they are made side by side, and stay with the meshes.
 void prepare(const contact::JointContact& bodies) {
   const auto of = [](const Mesh& mesh) {
     return [&] {
-      static_cast<void>(mesh.is_closed() && mesh::is_inside_out(mesh));
+      static_cast<void>(mesh.is_closed() && is_inside_out(mesh));
       static_cast<void>(mesh::tree_of(mesh)->one_vertex_of_each_piece());
     };
   };
@@ -45,7 +57,7 @@ bool is_solid(const Mesh& mesh, BodyRole role, std::vector<JointNote>& notes) {
     notes.push_back({JointNoteCode::open_mesh,
                      body + " is open and has no inside: the surfaces are answered for, and nothing that is "
                             "inside of it"});
-  else if (mesh::is_inside_out(mesh))
+  else if (is_inside_out(mesh))
     notes.push_back({JointNoteCode::inverted_mesh,
                      body + " is inside out, its volume is negative: nothing counts as inside of it; the "
                             "repair flip_inverted turns it"});
@@ -139,14 +151,13 @@ class Touch {
 
   void find_deepest() {
     const Pose& X_FM = answer_.request.X_FM;
-    const auto reaching = [&](BodyRole body) { return pair_.reaching(body, X_FM, answer_.pairs); };
     std::vector<Index> mobile_reaching, fixed_reaching;
     core::parallel_pair(
         [&] {
-          if (fixed_is_solid_) mobile_reaching = reaching(BodyRole::mobile);
+          if (fixed_is_solid_) mobile_reaching = pair_.reaching(BodyRole::mobile, X_FM, answer_.pairs);
         },
         [&] {
-          if (mobile_is_solid_) fixed_reaching = reaching(BodyRole::fixed);
+          if (mobile_is_solid_) fixed_reaching = pair_.reaching(BodyRole::fixed, X_FM, answer_.pairs);
         });
     contact::DepthSearched of_mobile, of_fixed;
     if (fixed_is_solid_)

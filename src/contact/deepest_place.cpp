@@ -34,8 +34,8 @@ constexpr int cuts_per_halving = 4;
 /// Pieces that may be deeper by this factor than any place yet are worth a look at whether they are inside at all.
 constexpr double thin_share = 4;
 
-/// Of a node whose radius is more than so many best depths, and than this share of the target, the depth at its middle tells less than a look
-/// at its halves.
+/// The search opens a node without a look at its middle if the node's radius is larger than this many best depths and than this share of the
+/// target's least half.
 constexpr double large_depths = 1.5, large_share = 0.1;
 
 /// Bounds of nodes are in single precision, and cover what they hold after they are posed.
@@ -65,7 +65,7 @@ double distance_to(const Vec3& p, const CornerPoints& t) {
   return core::ordered_norm(mesh::nearest_on_triangle(p, t) - p);
 }
 
-/// Who is inside a surface is no farther from it than from a face of its box.
+/// A point inside a surface is no farther from it than from a face of its box.
 double least_half_of(const Node& root) {
   return node_slack * std::min({root.half[0], root.half[1], root.half[2]});
 }

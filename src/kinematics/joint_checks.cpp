@@ -127,7 +127,7 @@ void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
   if (!body.mesh.is_closed())
     notes.add(JointNoteCode::open_mesh,
               body.name + " is open: one body inside the other would not be detected");
-  else if (mesh::enclosed_volume(body.mesh) < 0)
+  else if (mesh::is_inside_out(body.mesh))
     notes.add(
         JointNoteCode::inverted_mesh,
         body.name +

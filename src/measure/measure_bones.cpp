@@ -95,7 +95,7 @@ OwnPieces piece_around(const Mesh& hip_bone, const Body& body, const Sphere& hea
 }
 
 bool is_inside_out(const Mesh& bone) {
-  return bone.is_closed() && mesh::enclosed_volume(bone) < 0;
+  return bone.is_closed() && mesh::is_inside_out(bone);
 }
 
 std::string why_no_head(const Body& femur, const Mesh& bone) {

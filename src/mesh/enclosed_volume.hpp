@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 
 #include "condyle/inspect.hpp"
@@ -35,18 +34,16 @@ BoundingBox bounds_of_vertices(const TriMesh& mesh);
 
 /// Signed volume of the tetrahedron from p to a triangle. From the centre of the bounds the terms are small,
 /// and a mesh far from the origin loses nothing.
-inline double volume_below(const std::array<Vec3, 3>& corners, const Vec3& p) {
-  const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
-  return core::ordered_dot(a, b.cross(c)) / 6;
-}
 inline double volume_below(const TriMesh& mesh, std::size_t triangle, const Vec3& p) {
-  return volume_below({mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)}, p);
+  const Vec3 a = mesh.corner(triangle, 0) - p, b = mesh.corner(triangle, 1) - p,
+             c = mesh.corner(triangle, 2) - p;
+  return core::ordered_dot(a, b.cross(c)) / 6;
 }
 
 /// Volume that a closed mesh encloses; negative where it is inverted.
 double enclosed_volume(const TriMesh& mesh);
 
-/// Whether that is negative: found, mostly by a plain sum over the mesh's tree, when first asked for, and kept with the mesh.
-bool is_inside_out(const Mesh& mesh);
+/// Whether that is negative, which mostly a plain sum tells. Linear.
+bool is_inside_out(const TriMesh& mesh);
 
 }  // namespace condyle::mesh

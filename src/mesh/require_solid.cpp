@@ -22,7 +22,7 @@ void require_solid(const Mesh& mesh, const std::string& name) {
     throw MeshError(name + ": " + where +
                     ": the mesh has no inside; intersecting triangle pairs can still be computed");
   }
-  if (enclosed_volume(mesh) < 0)
+  if (is_inside_out(mesh))
     throw MeshError(name +
                     ": inverted orientation, its volume is negative; the repair flip_inverted turns it");
 }

@@ -38,7 +38,7 @@ struct Cube {
   Vec3 low;
   double steps_per_mm;
 
-  /// Of the centroid of three points.
+  /// The key of the centroid of three points.
   std::uint32_t key_of(const Vec3& a, const Vec3& b, const Vec3& c) const noexcept {
     constexpr double last = (1 << bits_per_axis) - 1;
     const auto step = [&](int axis) -> std::uint64_t {
@@ -104,7 +104,7 @@ struct Extent {
 
 /// The nearest point of a triangle is at most (longest edge) / sqrt(3) from its nearest corner and a right
 /// angle off: |p|^2 >= min^2 - longest^2 / 3. The squares' roundings are below 16 u max^2.
-[[gnu::always_inline]] inline Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
+Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
   // Minima of pairs: a list of three would be stored and read again.
   const double a = t[0].squaredNorm(), b = t[1].squaredNorm(), c = t[2].squaredNorm();
   const double min = std::min(std::min(a, b), c), max = std::max(std::max(a, b), c);
@@ -201,7 +201,7 @@ TriangleTree::TriangleTree(const TriMesh& mesh) {
   mesh_triangles_.resize(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) mesh_triangles_[i] = items[i].triangle;
   number_anew(mesh);
-  nodes_.reserve(items.size() / 2 + 1);
+  nodes_.reserve(items.size());
   Builder(*this, items, nodes_).build();
 }
 

@@ -55,7 +55,7 @@ TriMesh lofted(const Vec3& first, const std::vector<Ring>& rings, const Vec3& la
     }
   for (Index i = 0; i < around; ++i)
     mesh.triangles.push_back({end, vertex(rings.size() - 1, i), vertex(rings.size() - 1, i + 1)});
-  if (mesh::enclosed_volume(mesh) < 0)
+  if (mesh::is_inside_out(mesh))
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }

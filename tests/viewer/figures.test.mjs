@@ -226,6 +226,7 @@ test("a curve is pressed and moved through by arrow keys", { skip: !has("walk") 
   const { page } = await openPage(browser, pathOf("walk"));
   const frame = async () => Number(await page.getByRole("slider", { name: "Frame", exact: true }).inputValue());
   await openTab(page, "Figures");
+  await settled(page);  // curves that the core has answered are drawn with the others anew
   const curve = page.locator("#side .curve-plot");
   // From end to end of the axis of time.
   const box = await curve.locator("line.grid").first().boundingBox();

@@ -260,7 +260,7 @@ ShownJoint shown(Anatomy anatomy, const TriMesh& fixed, const TriMesh& mobile) {
 /// Condyles, heads and domes of a mesh that is inside out are hollows.
 std::string inverted_text(const ProposedBody& fixed, const ProposedBody& mobile) {
   for (const ProposedBody* body : {&fixed, &mobile})
-    if (const Mesh mesh(body->mesh); mesh.is_closed() && mesh::enclosed_volume(mesh) < 0)
+    if (const Mesh mesh(body->mesh); mesh.is_closed() && mesh::is_inside_out(mesh))
       return fmt::format("; the mesh of {} is inside out: condyle inspect --repair flip_inverted",
                          body->name);
   return {};
