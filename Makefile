@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench bench-summary verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate
+  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -154,14 +154,32 @@ page-core: dependencies
 	@node tests/viewer/same_bits.mjs build/page_core/page_core.js build/page_core/test
 	@node tests/viewer/same_edits.mjs build/page_core/page_core.js build/page_core/test
 
+# The committed core held against the native answers of today's sources: while they are the same bits it may stay.
+page-answers: dependencies
+	@$(configure_all)
+	@cmake --build --preset release --target page_core_answers
+	@mkdir -p build/page/committed
+	@build/release/page_core_answers --sample build/page/committed
+	@base64 -d viewer/page_core.base64 | gunzip >build/page/committed/page_core.wasm
+	@cp viewer/page_core.js build/page/committed
+	@for file in same_bits same_edits; do node tests/viewer/$$file.mjs build/page/committed/page_core.js build/page/committed || \
+	  { echo "the page's core answers otherwise than these sources: make page-template" >&2; exit 1; }; done
+
+# The reports that the page is tried with; prints the digest of their data.
+page-reports: dependencies
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_cli
+	@scripts/make_page_reports.sh
+
 # The page of condyle report, made anew: its committed template has to be what its sources make. Then in a real browser.
 page: page-core
 	@scripts/make_page_template.sh build/page/template
-	@for file in report_template.html page_core.base64; do cmp build/page/template/$$file viewer/$$file || \
+	@for file in report_template.html page_core.base64 page_core.js; do cmp build/page/template/$$file viewer/$$file || \
 	  { echo "viewer/$$file is not what its sources make: make page-template" >&2; exit 1; }; done
 	@cmake --build --preset release --target condyle_cli
+	@scripts/make_page_reports.sh >build/page/digest
 	@scripts/test_page.sh
-	@scripts/page_inputs.sh >tests/viewer/passed.txt
+	@scripts/page_inputs.sh "$$(cat build/page/digest)" >tests/viewer/passed.txt
 
 # After a change of the page or of the core: the template that condyle report fills in.
 page-template: page-core

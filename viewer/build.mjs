@@ -64,4 +64,5 @@ const parts = { policy, style, licenceList, licences: await packed(Buffer.from(t
 const page = source("src/page.html").replaceAll(/@(\w+)@/g, (_, part) => parts[part]);
 writeFileSync(join(folder, "report_template.html"), page);
 writeFileSync(join(folder, "page_core.base64"), core);
+writeFileSync(join(folder, "page_core.js"), (await transform(readFileSync(join(coreFolder, "page_core.js"), "utf8"), { minify: true, target: "es2022" })).code);
 console.log(`${folder}: template ${(page.length / 1e6).toFixed(2)} MB, of it script ${(parts.script.length / 1e6).toFixed(2)}, and core ${(core.length / 1e6).toFixed(2)} MB`);
