@@ -42,7 +42,7 @@ demo: command
 run_tests = rm -rf build/$(1)/test_results; status=0; \
   ctest --preset $(1) --parallel 3 --output-junit test_results/ctest.junit -LE '^($(2))$$' || status=$$?; \
   $(if $(filter release,$(1)),scripts/slow_cases.py check build/$(1)/test_results || status=$$?;) \
-  scripts/count_skipped.sh build/$(1)/test_results; exit $$status
+  scripts/count_skipped.sh build/$(1)/test_results || status=$$?; exit $$status
 
 # What a change is tried with: every suite, without the cases of tests/slow_cases.txt. All of them: test-all.
 test: dependencies

@@ -11,6 +11,9 @@ import pytest
 
 import condyle
 
+# Where real joints lie, by the rule of the C++ tests: what is named, or else the folder beside the repository.
+os.environ.setdefault("CONDYLE_DATA", str(Path(__file__).resolve().parents[3] / "shared/data"))
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--cases", choices=("all", "quick", "slow"), default="all", help="those of tests/slow_cases.txt, or the others")

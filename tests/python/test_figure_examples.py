@@ -26,7 +26,7 @@ def test_a_cam_takes_internal_rotation_from_every_hip(source: Path, tmp_path: Pa
 
 
 def test_the_knee_is_that_which_was_published(source: Path, tmp_path: Path):
-    data = Path(os.environ.get("CONDYLE_DATA", source.parent / "shared/data"))
+    data = Path(os.environ["CONDYLE_DATA"])
     if not (data / "osim_lenhart2015").is_dir():
         pytest.skip("no shared data: set CONDYLE_DATA")
     subprocess.run([sys.executable, data / "osim_lenhart2015/make_geometry.py", tmp_path / "Geometry"], check=True,

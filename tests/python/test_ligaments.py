@@ -339,7 +339,7 @@ def test_a_study_counts_the_points_of_a_map_that_ligaments_end(file, command, tm
     assert int(hip["map_lower_ligament_points"]) + int(hip["map_upper_ligament_points"]) > 0
 
 
-DATA = Path(os.environ.get("CONDYLE_DATA", "../shared/data"))
+DATA = Path(os.environ["CONDYLE_DATA"])
 KNEE = DATA / "osim_lenhart2015"
 
 

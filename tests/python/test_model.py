@@ -12,10 +12,10 @@ import pytest
 
 import condyle
 
-DATA = Path(os.environ.get("CONDYLE_DATA", "nowhere"))
+DATA = Path(os.environ["CONDYLE_DATA"])
 GAIT = DATA / "osim_gait2354"
 
-pytestmark = pytest.mark.skipif(not GAIT.exists(), reason="the shared models are missing")
+pytestmark = pytest.mark.skipif(not GAIT.exists(), reason="no shared data: set CONDYLE_DATA")
 
 
 @pytest.fixture(scope="module")

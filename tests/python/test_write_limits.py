@@ -10,7 +10,7 @@ import pytest
 
 import condyle
 
-DATA = Path(os.environ.get("CONDYLE_DATA", "../shared/data"))
+DATA = Path(os.environ["CONDYLE_DATA"])
 MODEL = DATA / "osim_gait2354" / "gait2354_simbody.osim"
 
 
