@@ -1,6 +1,6 @@
 #include "choice.hpp"
 
-#include <CLI/Validators.hpp>
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 namespace condyle::cli {

@@ -1,5 +1,7 @@
 #include "label_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "answer.hpp"
 #include "choice.hpp"
 #include "condyle/error.hpp"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "choice.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"

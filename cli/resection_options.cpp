@@ -1,9 +1,9 @@
 #include "resection_options.hpp"
 
 #include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <CLI/Validators.hpp>
 
 #include "condyle/error.hpp"
 #include "whole_number.hpp"
