@@ -59,7 +59,7 @@ def draw_hip():
     draw(OUT / "map", {"map_internal_rotation": "map_internal_rotation.png"})
     condyle("resect", OUT / "sample/hip.toml", "--reach", "fadir=48", "--curve", 0, "--out", OUT / "sheet_plan")
     sheet = figures.sheet([OUT / "rom", OUT / "sheet_plan", OUT / "shape"], case="Case 17", date="2026-11-27")
-    figures.save(sheet, IMAGES / "sheet.png", dpi=100)
+    figures.save(sheet[0], IMAGES / "sheet.png", dpi=100)
     print("docs/images/sheet.png")
 
 

@@ -9,7 +9,7 @@ are taken as the module gives them, or as `condyle.plot.files` reads them from t
     ax = figures.limits(result)
     figures.save(ax, "limits.pdf")
 
-`python3 -m condyle.plot FOLDER` draws all that is in a folder, `python3 -m condyle.plot sheet FOLDER...` a case on one page.
+`python3 -m condyle.plot FOLDER` draws all that is in a folder, `python3 -m condyle.plot sheet FOLDER...` a case on paper.
 Needs matplotlib 3.6 or newer. What is read of files is drawn without the compiled part of Condyle, which `import condyle`
 loads all the same.
 """

@@ -1,4 +1,4 @@
-"""Draws what is in a folder of results, python3 -m condyle.plot FOLDER, or a case on one page, python3 -m condyle.plot sheet INPUT..."""
+"""Draws what is in a folder of results, python3 -m condyle.plot FOLDER, or a case on paper, python3 -m condyle.plot sheet INPUT..."""
 from __future__ import annotations
 
 import argparse
@@ -25,7 +25,7 @@ examples:
   condyle study hips.csv --measures --out study && python3 -m condyle.plot study --out figures
   condyle motion knee.toml --motion walk.mot --load --maps --out walk
   python3 -m condyle.plot walk --frames 0 20 40 --out figures
-a case on one page, of which python3 -m condyle.plot sheet --help says more; a folder of that name is ./sheet:
+a case on paper, of which python3 -m condyle.plot sheet --help says more; a folder of that name is ./sheet:
   condyle resect hip.toml --reach "fadir=48" --out plan
   python3 -m condyle.plot sheet range plan --case "Case 17" --date 2026-11-27 --out case.pdf
 """
@@ -75,12 +75,12 @@ def _sheet_parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="python3 -m condyle.plot sheet", formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="example:\n" + EXAMPLES[EXAMPLES.index("  condyle resect"):],
-        description="Writes one A4 page of a case: limits now and planned with targets, bands and clinical ranges; the bone that must go;\n"
-        "contacts on the rim; the safe zone; all notes. Names what was written.")
+        description="Writes a case on A4: a page with the verdict, the planned resection, limits now and planned with targets and bands, and notes\n"
+        "that may change a decision; then contacts on the socket's clock, shape, safe zone, all other notes. Names what was written.")
     parser.add_argument("inputs", metavar="INPUT", type=Path, nargs="+",
                         help="folders of condyle rom, resect, measure or sweep --out, or their rom.json, resection.json, measures.json, sweep.json: "
                         "one of each at most, of one joint")
-    parser.add_argument("--out", metavar="FILE.pdf", type=Path, required=True, help="the page, as PDF")
+    parser.add_argument("--out", metavar="FILE.pdf", type=Path, required=True, help="the pages, as PDF, or FILE.png, FILE-2.png")
     _add_heading(parser)
     parser.add_argument("--picture", metavar="FILE.png", type=Path,
                         help="shown as the cut, in place of depth_mobile.png and depth_fixed.png beside resection.json")
@@ -98,7 +98,7 @@ def _figures(given: argparse.Namespace) -> Rendered:
         _refuse_heading(given)
     out = given.out or given.folder
     return [_rendered(out / f"{name}.{given.format}", draw, given.format) for name, draw in found] + \
-        [_rendered(out / f"{name}.pdf", draw, "pdf", case_sheet.DPI) for name, draw in sheets]
+        [file for name, draw in sheets for file in _pages(out / f"{name}.{'png' if given.format == 'png' else 'pdf'}", draw)]
 
 
 def _refuse_heading(given: argparse.Namespace) -> None:
@@ -132,8 +132,17 @@ def _rendered(path: Path, draw: Callable[[], Figure], format: str, dpi: float = 
         plt.close(figure)
 
 
+def _pages(path: Path, draw: Callable[[], List[Figure]]) -> Rendered:
+    pages = draw()
+    try:
+        return style.rendered_files(pages, path, case_sheet.DPI)
+    finally:
+        for page in pages:
+            plt.close(page)
+
+
 def _sheet(given: argparse.Namespace) -> Rendered:
-    return [_rendered(given.out, lambda: case_sheet.sheet(given.inputs, **_heading(given), picture=given.picture), "pdf", case_sheet.DPI)]
+    return _pages(given.out, lambda: case_sheet.sheet(given.inputs, **_heading(given), picture=given.picture))
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
@@ -142,8 +151,8 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     is_sheet = words[:1] == ["sheet"]
     parser = _sheet_parser() if is_sheet else _parser()
     given = parser.parse_args(words[1:] if is_sheet else words)
-    if is_sheet and given.out.suffix.lower() != ".pdf":
-        parser.error("argument --out: a sheet is written as .pdf")
+    if is_sheet and given.out.suffix.lower() not in (".pdf", ".png"):
+        parser.error("argument --out: a sheet is written as .pdf or .png")
     matplotlib.use("Agg")
     about = given.out if is_sheet else given.folder
     try:

@@ -26,8 +26,12 @@ def read_resection(path: PathLike) -> Dict[str, Any]:
             _check_numbers(each["before"]["limit_deg"], each["after"]["limit_deg"])
         for each in plan["targets"]:
             _check_texts(each["motion"])
-            band = each["band"] or {"p5_deg": 0, "p95_deg": 0}
-            _check_numbers(each["reach_deg"], each["after"]["limit_deg"], band["p5_deg"], band["p95_deg"])
+            other = each.get("other_centre") or {"centre": "", "before_deg": 0, "after_deg": 0, "is_decided": True}
+            _check_texts(other["centre"], each.get("text", ""))
+            _check_numbers(each["reach_deg"], each["after"]["limit_deg"], *(other[key] for key in ("before_deg", "after_deg", "is_decided")),
+                           each.get("confidence_reached") or 0, plan.get("confidence") or 0)
+        for band in [each.get(key) for each in plan["limits"] + plan["targets"] for key in ("before_band", "band")]:
+            _check_numbers(*(band[key] for key in ("p5_deg", "median_deg", "p95_deg")) if band else ())
         for each in plan["cuts"]:
             _check_texts(each["body"], each["name"])
             _check_numbers(each["volume_mm3"], each["area_mm2"], each["deepest_mm"], each["deepest_hour"] or 0)

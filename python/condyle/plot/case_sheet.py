@@ -1,4 +1,4 @@
-"""A case on one sheet of paper: limits now and planned, what is removed, where contacts are, and what was noted."""
+"""A case on paper: a page with a verdict, its figure, the limits and what may change a decision; then pages with all else."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -12,27 +12,25 @@ from .._errors import UsageError
 from . import sheet_text, style
 from .case_files import Case, read_case
 from .files import PathLike
-from .limit_bars import ENDS, footnotes, marked_name, turned_text
-from .paper import HEIGHT_MM, WIDTH_MM, Block, Cell, Column, Paper, nothing, stacked, width_mm
+from .limit_bars import ENDS, footnotes, marked_name, value_text
+from .paper import HEIGHT_MM, Block, Cell, Column, Paper, nothing, stacked, wrapped
 from .rim_clock import clock_text
-from .sheet_pictures import TITLE_MM, Picture, pictures_of
+from .sheet_pictures import EDGE_MM, INNER_MM, PICTURE_MM, TITLE_MM, Picture, bars, pictures_of
 from .sheet_text import Note, Row
 from .words import number, spaced
 
-EDGE_MM, GAP_MM = 12.0, 2.2
-INNER_MM = WIDTH_MM - 2 * EDGE_MM
-PICTURE_MM = INNER_MM / 2 - 2
-SIZES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7)
-"""Sizes of type that are tried, over those of a sheet with room."""
+GAP_MM, LAST_MM = 2.2, HEIGHT_MM - EDGE_MM - 5
+BIG, TEXT, SMALL = 12.0, 8.0, 7.0
+"""Sizes of type in points; there is none smaller."""
 DPI = 180
-"""Of pictures: at this one no picture, whatever it shows, makes the file larger than 1 MB."""
+"""Of pictures: at this one no picture, whatever it shows, adds more than 1.4 MB to the file."""
 
 
-def sheet(inputs: Sequence[PathLike], *, case: str = "", date: str = "", note: str = "", picture: Optional[PathLike] = None) -> Figure:
-    """Draws an A4 page of one case from what `condyle rom`, `resect`, `measure` and `sweep` wrote.
+def sheet(inputs: Sequence[PathLike], *, case: str = "", date: str = "", note: str = "", picture: Optional[PathLike] = None) -> List[Figure]:
+    """Draws A4 pages of one case from what `condyle rom`, `resect`, `measure` and `sweep` wrote.
 
-    Type gets smaller until all stands on the page; where it would get too small, a line says how many notes are left out
-    and which file has them. Write it by `save(figure, "case.pdf", dpi=180)`.
+    The first has what a decision needs: a verdict, the figure of now and planned, the limits, at most five notes. All else stands on the
+    pages after it. Write them by `save(pages, "case.pdf", dpi=180)`.
 
     Parameters
     ----------
@@ -48,125 +46,131 @@ def sheet(inputs: Sequence[PathLike], *, case: str = "", date: str = "", note: s
     ReadError
         A file is bad, or they are not of one joint.
     UsageError
-        There are too many motions, or too long texts, for one page.
+        The texts leave no room for the limits on the first page.
     """
     found = read_case(inputs)
-    with style.print_style(), matplotlib.rc_context({"text.parse_math": False}):
+    with style.print_style(), matplotlib.rc_context({"text.parse_math": False, "font.size": 9.5}):
         paper = Paper()
         try:
-            pictures = pictures_of(paper, found, None if picture is None else Path(picture), PICTURE_MM)
-            _fill(paper, found, case, date, note, pictures)
+            _fill(paper, found, (case, date, note), pictures_of(paper, found, None if picture is None else Path(picture)))
         except BaseException:
-            plt.close(paper.figure)
+            for page in paper.pages:
+                plt.close(page)
             raise
-    return paper.figure
+    return paper.pages
 
 
-def _fill(paper: Paper, case: Case, name: str, date: str, note: str, pictures: List[Picture]) -> None:
-    """Draws with the largest type with which all fits; with the smallest, the notes that fit."""
-    pairs = [pictures[i:i + 2] for i in range(0, len(pictures), 2)]
-    least = sum(max(each.least for each in pair) + GAP_MM for pair in pairs)
-    upper, lower, room = _fitting(paper, case, (name, date, note), least)
-    upper.draw(EDGE_MM)
-    top = EDGE_MM + upper.height
-    for pair in pairs:
-        height = min(max(each.best for each in pair), max(each.least for each in pair) + (room - least) / len(pairs))
-        for i, each in enumerate(pair):
-            left = EDGE_MM + i * (INNER_MM - PICTURE_MM)
-            paper.line(left, top, each.title, min(7.5, PICTURE_MM / width_mm(each.title, 1, True)), bold=True)
-            each.draw(left, top + TITLE_MM, PICTURE_MM, height - TITLE_MM)
-        top += height + GAP_MM
-    lower.draw(top)
+def _fill(paper: Paper, case: Case, heading: Tuple[str, str, str], pictures: List[Picture]) -> None:
+    rows = sheet_text.rows_of(case)
+    first, rest = sheet_text.first_and_rest(sheet_text.notes(case))
+    upper, table, lower = _above(paper, case, rows, heading), _tables(paper, case, rows), _notes(paper, case, first)
+    main = [each for each in pictures[:1] if each.width <= PICTURE_MM]
+    wide = INNER_MM - PICTURE_MM - 4 if main else INNER_MM
+    shown = main + ([bars(paper, rows, sheet_text.headline(case, rows), wide)] if rows else [])
+    least = max((each.least for each in shown), default=0.0)
+    room = LAST_MM - EDGE_MM - upper.height - lower.height - 2 * GAP_MM
+    if room < least + sum(block.height for block in table[:4]):
+        raise UsageError("the names, the note and the notes of the case leave no room for its limits on the first page")
+    count = max(i for i in range(len(table) + 1) if sum(block.height for block in table[:i]) <= room - least)
+    best = max((each.best for each in shown), default=0.0)
+    height = min(best, room - sum(block.height for block in table[:count]))
+    top = paper.flow([upper], EDGE_MM, EDGE_MM, LAST_MM)
+    for each in shown:
+        _draw(paper, each, EDGE_MM if each in main else EDGE_MM + INNER_MM - wide, top, PICTURE_MM if each in main else wide, height)
+    top = paper.flow(table[:count], top + height + GAP_MM, EDGE_MM, HEIGHT_MM)
+    paper.flow([lower], LAST_MM - lower.height, EDGE_MM, HEIGHT_MM)
+    paper.turn()
+    _rest(paper, case, rows, table[count:], pictures[len(main):], rest)
+    for i, page in enumerate(paper.pages):
+        paper.figure = page
+        more = "All other notes, contacts, shape, sources and files follow." if i == 0 else sheet_text.patient_line(case, *heading[:2])
+        foot = wrapped(f"Page {i + 1} of {len(paper.pages)}. {more}", INNER_MM, SMALL)[0]
+        paper.line(EDGE_MM, HEIGHT_MM - EDGE_MM - 4, foot, SMALL, colour="#555555")
 
 
-def _fitting(paper: Paper, case: Case, heading: Tuple[str, str, str], least: float) -> Tuple[Block, Block, float]:
-    """What stands above and below the pictures, and the height in mm that is left for these, at least `least`."""
-    rows, notes = sheet_text.rows_of(case), sheet_text.notes(case)
-    for size in SIZES:
-        upper = _above(paper, case, rows, heading, size)
-        for count in range(len(notes), -1 if size == SIZES[-1] else len(notes) - 1, -1):
-            lower = _below(paper, case, notes[:count], notes[count:], size)
-            room = HEIGHT_MM - 2 * EDGE_MM - upper.height - lower.height
-            if room >= least:
-                return upper, lower, room
-    raise UsageError(f"{len(rows)} motions, the names and the note do not fit on one page: condyle rom --motion chooses motions")
+def _draw(paper: Paper, picture: Picture, left: float, top: float, width: float, height: float) -> None:
+    paper.first_line(left, top, picture.title, width, 9)
+    picture.draw(left, top + TITLE_MM, width, height - TITLE_MM)
 
 
-def _above(paper: Paper, case: Case, rows: List[Row], heading: Tuple[str, str, str], size: float) -> Block:
-    """From the name of the case, its date and its note to the table."""
+def _above(paper: Paper, case: Case, rows: List[Row], heading: Tuple[str, str, str]) -> Block:
+    """From the name of the case, its date and its note to what the plan gives."""
     name, date, note = heading
-    colour = style.VERMILION if case.plan else "#555555"
-    blocks = [paper.paragraph(sheet_text.patient_line(case, name, date), EDGE_MM, INNER_MM, 11 * size, bold=True)]
-    if note:
-        blocks.append(paper.paragraph(note, EDGE_MM, INNER_MM, 8.5 * size))
-    blocks += [nothing(1.2), paper.ribbon(sheet_text.heading(case), EDGE_MM, INNER_MM, 11 * size, colour), nothing(1.2)]
-    said = [sheet_text.limited_most(rows)] if rows else []
-    said += sheet_text.reached(case.plan) if case.plan else []
-    said += [sheet_text.sweep_line(case.sweep)] if case.sweep else []
-    blocks += [paper.paragraph(each, EDGE_MM, INNER_MM, 8.5 * size) for each in said]
+    text, colour = sheet_text.heading(case)
+    blocks = [paper.paragraph(sheet_text.patient_line(case, name, date), EDGE_MM, INNER_MM, 10, bold=True)]
+    blocks += [paper.paragraph(note, EDGE_MM, INNER_MM, TEXT)] * bool(note)
+    blocks += [nothing(1), paper.ribbon(text, EDGE_MM, INNER_MM, BIG, colour), nothing(1)]
     if rows:
-        blocks += [nothing(1.2), _table(paper, rows, 8 * size)]
-        source = case.rom and any(row.now.normal_deg is not None for row in rows) and case.rom.get("normal_range_source")
-        below = [f"Clinical range: {source}."] * bool(source) + [sheet_text.how_sure(case)]
-        below += [f"{each}." for each in footnotes([row.now for row in rows])]
-        blocks.append(paper.paragraph(" ".join(below), EDGE_MM, INNER_MM, 6.5 * size))
-    if case.sweep:
-        blocks += [nothing(1.2), _targets(paper, case, 8 * size)]
-    return stacked([*blocks, nothing(GAP_MM)])
+        blocks += [paper.paragraph(" ".join(sheet_text.verdict(case, rows)), EDGE_MM, INNER_MM, BIG, bold=True), nothing(0.8)]
+    said = sheet_text.other_targets(case, sheet_text.headline(case, rows).now.name if rows else "") + ([sheet_text.sweep_line(case.sweep)] if case.sweep else [])
+    return stacked([*blocks, *(paper.paragraph(each, EDGE_MM, INNER_MM, 9) for each in said), nothing(GAP_MM)])
 
 
-def _below(paper: Paper, case: Case, notes: List[Note], left_out: List[Note], size: float) -> Block:
-    """From the shape to the end of the page."""
-    blocks: List[Block] = []
-    shape = sheet_text.shape(case)
-    if shape:
-        blocks += [paper.paragraph(shape, EDGE_MM, INNER_MM, 7 * size), nothing(1)]
-    if notes or left_out:
-        blocks.append(paper.paragraph("Notes", EDGE_MM, INNER_MM, 7.5 * size, bold=True))
-        blocks.append(paper.in_two_columns([f"• {note.text}" for note in notes], EDGE_MM, INNER_MM, 7 * size))
-    if left_out:
-        where = ", ".join(dict.fromkeys(note.file for note in left_out))
-        blocks.append(paper.paragraph(f"{len(left_out)} more in {where}.", EDGE_MM, INNER_MM, 7 * size, bold=True))
-    blocks += [nothing(1), paper.paragraph(sheet_text.not_modelled(case), EDGE_MM, INNER_MM, 7.5 * size, bold=True),
-               paper.paragraph(sheet_text.made_from(case), EDGE_MM, INNER_MM, 6 * size, colour="#555555")]
-    return stacked(blocks)
+def _notes(paper: Paper, case: Case, first: List[Note]) -> Block:
+    blocks = [paper.paragraph(f"• {note.text}", EDGE_MM, INNER_MM, TEXT) for note in first]
+    return stacked([nothing(GAP_MM), *blocks, nothing(0.8), paper.paragraph(sheet_text.scope(case), EDGE_MM, INNER_MM, TEXT, bold=True)])
 
 
-def _table(paper: Paper, rows: Sequence[Row], points: float) -> Block:
-    """The limits; columns in which no motion has anything are left out, and motions have their room."""
+def _rest(paper: Paper, case: Case, rows: List[Row], table: List[Block], pictures: List[Picture], notes: List[Note]) -> None:
+    """All that is not on the first page."""
+    top = paper.flow(table, EDGE_MM, EDGE_MM, LAST_MM)
+    for picture in pictures:
+        if top + picture.best > LAST_MM:
+            paper.turn()
+            top = EDGE_MM
+        _draw(paper, picture, EDGE_MM, top, picture.width, picture.best)
+        top += picture.best + GAP_MM
+    said = [each for each in (sheet_text.shape(case), sheet_text.how_sure(case, rows)) if each]
+    blocks = [block for each in said for block in (*paper.lines(each, EDGE_MM, INNER_MM, TEXT), nothing(1.5))]
+    blocks += [paper.paragraph("Notes", EDGE_MM, INNER_MM, 9, bold=True)] * bool(notes)
+    blocks += [line for note in notes for line in paper.lines(f"• {note.text}", EDGE_MM, INNER_MM, TEXT)]
+    paper.flow([*blocks, nothing(1.5), *paper.lines(sheet_text.made_from(case), EDGE_MM, INNER_MM, SMALL, colour="#555555")], top, EDGE_MM, LAST_MM)
+
+
+def _tables(paper: Paper, case: Case, rows: List[Row]) -> List[Block]:
+    """The limits, what their columns are of, and the targets of a sweep."""
+    blocks = _limits(paper, rows) if rows else []
+    below = ["Living hips: of other people, in grey a clinical range."] * any(row.living[0] for row in rows)
+    below += ["Not compared with other hips, as zero is not known to be neutral."] * (case.rom is not None and (case.rom.get("zero") or {}).get("is_neutral") is False)
+    below += ["In brackets: 5 to 95 % of displaced joints."] * any(end.band for row in rows for end in row.ends)
+    below += [f"{each}." for each in footnotes([row.now for row in rows])]
+    blocks += paper.lines(" ".join(below), EDGE_MM, INNER_MM, SMALL)
+    return blocks + ([nothing(1.2), *_targets(paper, case)] if case.sweep else [])
+
+
+def _limits(paper: Paper, rows: Sequence[Row]) -> List[Block]:
+    """Columns in which no motion has anything are left out."""
+    others = [(row.target or {}).get("other_centre") for row in rows]
+    centre = next((f"{each['centre']}'s centre" for each in others if each), "")
+    at_rim = any(row.now.hour is not None for row in rows)
     fields: Dict[Column, List[str]] = {
-        Column("now"): [turned_text(row.now) for row in rows],
+        Column("now"): [value_text(row.ends[0]) for row in rows],
         Column("target"): [sheet_text.degrees_text(row.target["reach_deg"]) if row.target else "" for row in rows],
-        Column("planned"): [_planned(row) for row in rows],
-        Column("band now"): [f"{row.now.band.p5_deg:.0f}–{row.now.band.p95_deg:.0f}°" if row.now.band else "" for row in rows],
-        Column("normal"): [f"{number(row.now.normal_deg)}°" if row.now.normal_deg is not None else "" for row in rows],
-        Column("ended by", 3): [_ended_by(row, any(each.now.hour is not None for each in rows)) for row in rows],
-        Column("clock"): [clock_text(row.now.hour) if row.now.hour is not None else "" for row in rows],
+        Column("planned"): [value_text(row.ends[1]) if row.after else "" for row in rows],
+        Column(centre): [f"{each['before_deg']:.1f} → {each['after_deg']:.1f}°" if each else "" for each in others],
+        Column("living hips", 2): [row.living[0] for row in rows],
+        Column("ended by (socket's clock)" if at_rim else "ended by", 3): [_ended_by(row, at_rim) for row in rows],
     }
     kept = {column: texts for column, texts in fields.items() if any(texts)}
     cells = []
     for i, row in enumerate(rows):
-        given = [Cell(texts[i] or "–", bold=column.heading == "planned" and row.is_changed) for column, texts in kept.items()]
+        grey = {"living hips": row.living[1], "planned": not row.is_changed}
+        given = [Cell(texts[i] or "–", bold=column.heading == "planned" and row.is_changed,
+                      colour=style.GREY if grey.get(column.heading) else style.BLACK) for column, texts in kept.items()]
         cells.append([Cell(str(i + 1)), Cell(marked_name(row.now), bold=row.target is not None), *given])
-    return paper.table([Column(""), Column("motion", 4), *kept], cells, EDGE_MM, INNER_MM, points)
-
-
-def _planned(row: Row) -> str:
-    if row.after is None:
-        return ""
-    band = row.target and row.target["band"]
-    return turned_text(row.after) + (f" ({band['p5_deg']:.0f}–{band['p95_deg']:.0f})" if band else "")
+    return paper.table([Column(""), Column("motion", 4), *kept], cells, EDGE_MM, INNER_MM, TEXT)
 
 
 def _ended_by(row: Row, at_rim: bool) -> str:
-    """With the meshes that meet, if a body has several; where others end at the rim and have an hour, whether this one does not."""
+    """With the meshes that meet, if a body has several; the hour at the rim, or where others have one, that it has none."""
     words = ENDS[row.now.end].words
     if row.now.end not in sheet_text.CONTACTS:
         return words
-    return ", ".join([words] + [row.pair] * row.is_of_parts + ["away from the rim"] * (at_rim and row.now.hour is None))
+    hour = [clock_text(row.now.hour)] if row.now.hour is not None else ["away from the rim"] * at_rim
+    return ", ".join([words, *[row.pair] * row.is_of_parts, *hour])
 
 
-def _targets(paper: Paper, case: Case, points: float) -> Block:
+def _targets(paper: Paper, case: Case) -> List[Block]:
     """Limits of the sweep's targets, of the joint as it is and of the best design."""
     assert case.sweep is not None
     designs = [{each["target"]: each for each in (design or {"limits": []})["limits"]} for design in (case.sweep["here"], case.sweep["best"])]
@@ -180,4 +184,4 @@ def _targets(paper: Paper, case: Case, points: float) -> Block:
     columns = [Column("target of the sweep", 4), Column("needs"), Column("as it is", 3), Column("best design", 3)]
     rows = [[Cell(spaced(target["name"])), Cell(f"{number(target['reach_deg'])}°"), *(Cell(limit(design, target["name"])) for design in designs)]
             for target in case.sweep["targets"]]
-    return paper.table(columns, rows, EDGE_MM, INNER_MM, points)
+    return paper.table(columns, rows, EDGE_MM, INNER_MM, TEXT)

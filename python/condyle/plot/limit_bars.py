@@ -47,9 +47,9 @@ def turned_text(end: MotionEnd) -> str:
 
 
 def value_text(end: MotionEnd) -> str:
-    """ "131.9° (126–135)", ">120° (88–120)": a limit with its band, as the command quotes it."""
+    """ "131.9° (126–135)", ">120° (88–>120)": a limit with its band, as the command quotes it."""
     text, band = turned_text(end), end.band
-    return text if band is None else f"{text} ({band.p5_deg:.0f}–{band.p95_deg:.0f})"
+    return text if band is None else f"{text} ({band.text})"
 
 
 def ends_of(result: RomLike, bands: Bands = True) -> List[MotionEnd]:

@@ -22,12 +22,14 @@ Bands = Union[bool, Sequence[Union[LimitBand, Mapping[str, float]]]]
 
 
 class Band(NamedTuple):
-    """Band of a limit, degrees: 5, 50 and 95 % of its joints; `is_open` if over 5 % of them reach the end of the range without contact."""
+    """Band of a limit, degrees: 5, 50 and 95 % of its joints; `is_open` if over 5 % of them reach the end of the range without contact; `text`
+    as the command quotes it, "88–>120"."""
 
     p5_deg: float
     median_deg: float
     p95_deg: float
     is_open: bool
+    text: str
 
 
 class MotionEnd(NamedTuple):
@@ -60,7 +62,9 @@ def _band(found: Any, range_deg: float) -> Optional[Band]:
     if found is None:
         return None
     p5, median, p95 = (float(of(found, name)) for name in Band._fields[:3])
-    return Band(p5, median, p95, of(found, "share_without_contact", 0) > 0.05 and p95 > range_deg - 0.5)
+    # Files of earlier versions have no text.
+    text = of(found, "text", None) or f"{p5:.0f}–{p95:.0f}"
+    return Band(p5, median, p95, of(found, "share_without_contact", 0) > 0.05 and p95 > range_deg - 0.5, text)
 
 
 def _caveats(limit: Any) -> Tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""An A4 page measured in mm from its upper left corner: blocks of text and tables whose heights are known before they are drawn."""
+"""A4 pages measured in mm from their upper left corners: blocks of text and tables whose heights are known before they are drawn."""
 from __future__ import annotations
 
 import functools
@@ -6,6 +6,7 @@ from typing import Callable, List, NamedTuple, Sequence
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Rectangle
 from matplotlib.textpath import text_to_path
@@ -95,19 +96,41 @@ class Cell(NamedTuple):
 
     text: str
     bold: bool = False
+    colour: str = style.BLACK
 
 
 class Paper:
-    """The page as a figure."""
+    """Pages as figures; what is drawn stands on the last one."""
 
     def __init__(self) -> None:
+        self.pages: List[Figure] = []
+        self.turn()
+
+    def turn(self) -> None:
+        """Begins a page."""
         self.figure = plt.figure(figsize=style.size_mm(WIDTH_MM, HEIGHT_MM))
+        self.pages.append(self.figure)
+
+    def flow(self, blocks: Sequence[Block], top: float, first: float, last: float) -> float:
+        """Draws blocks below each other from `top` on; one that would pass `last` begins a page, at `first`. Returns where they end."""
+        for block in blocks:
+            if top + block.height > last and top > first:
+                self.turn()
+                top = first
+            block.draw(top)
+            top += block.height
+        return top
 
     def line(self, x: float, top: float, text: str, points: float, *, bold: bool = False, colour: str = style.BLACK, centred: bool = False) -> None:
         """One line of text below `top`, to the right of `x` or about it."""
         base = top + points * MM_PER_POINT * (0.5 * LINE + 0.36)  # capitals in the middle of the line
         self.figure.text(x / WIDTH_MM, 1 - base / HEIGHT_MM, text, fontsize=points, fontweight="bold" if bold else "normal", color=colour,
                          ha="center" if centred else "left", va="baseline")
+
+    def first_line(self, x: float, top: float, text: str, width: float, points: float) -> None:
+        """A title of this width, with an ellipsis for what has no room."""
+        first, *rest = wrapped(text, width - 2 * points * MM_PER_POINT, points, True)
+        self.line(x, top, first + "…" * bool(rest), points, bold=True)
 
     def box(self, x: float, top: float, width: float, height: float, colour: str) -> None:
         """A rectangle without an edge."""
@@ -131,22 +154,9 @@ class Paper:
         """Text in lines of this width."""
         return self._lines(wrapped(text, width, points, bold), x, points, bold, colour)
 
-    def in_two_columns(self, texts: Sequence[str], x: float, width: float, points: float, gap: float = 4) -> Block:
-        """Paragraphs in two columns, none of them divided."""
-        each = (width - gap) / 2
-        blocks = [self.paragraph(text, x, each, points) for text in texts]
-        half, left, at = sum(block.height for block in blocks) / 2, 0.0, 0
-        while left < half - 1e-9:
-            left += blocks[at].height
-            at += 1
-        right = [self.paragraph(text, x + each + gap, each, points) for text in texts[at:]]
-        columns = stacked(blocks[:at]), stacked(right)
-
-        def draw(top: float) -> None:
-            for column in columns:
-                column.draw(top)
-
-        return Block(max(column.height for column in columns), draw)
+    def lines(self, text: str, x: float, width: float, points: float, *, bold: bool = False, colour: str = style.BLACK) -> List[Block]:
+        """The same, each line a block: a page may end between them."""
+        return [self._lines([line], x, points, bold, colour) for line in wrapped(text, width, points, bold)]
 
     def ribbon(self, text: str, x: float, width: float, points: float, colour: str) -> Block:
         """White text on a colour."""
@@ -158,11 +168,14 @@ class Paper:
 
         return Block(inner.height + 2, draw)
 
-    def table(self, columns: Sequence[Column], rows: Sequence[Sequence[Cell]], x: float, width: float, points: float) -> Block:
-        """Rows below their headings, every second one shaded; a row is as high as the longest of its cells asks for."""
+    def table(self, columns: Sequence[Column], rows: Sequence[Sequence[Cell]], x: float, width: float, points: float) -> List[Block]:
+        """The headings and each row as blocks, every second row shaded; a row is as high as the longest of its cells asks for."""
         border, each = 1.0, points * MM_PER_POINT * LINE
         all_rows = [[Cell(column.heading, bold=True) for column in columns], *rows]
-        needed = [max(width_mm(row[i].text, points, row[i].bold) for row in all_rows) + 2 * border + 1e-6 for i in range(len(columns))]
+        # Over numbers the words of a heading may stand below each other.
+        words = [[column.heading] if column.part else column.heading.split() or [""] for column in columns]
+        needed = [max([width_mm(row[i].text, points, row[i].bold) for row in rows] + [width_mm(word, points, True) for word in words[i]]) + 2 * border + 1e-6
+                  for i in range(len(columns))]
         parts = sum(column.part for column in columns)
         spare = width - sum(needed)
         if spare < 0:
@@ -172,16 +185,14 @@ class Paper:
         lines = [[wrapped(cell.text, wide - 2 * border, points, cell.bold) for cell, wide in zip(row, widths)] for row in all_rows]
         heights = [max(map(len, of_row)) * each + border for of_row in lines]
 
-        def draw(top: float) -> None:
-            for i, row in enumerate(all_rows):
-                if i % 2 == 0:
-                    self.box(x, top, width, heights[i], "#f4f4f4" if i else style.LIGHT_GREY)
-                left = x
-                for column, wide, cell, of_cell in zip(columns, widths, row, lines[i]):
-                    for k, line in enumerate(of_cell):
-                        self.line(left + border if column.part else left + wide / 2, top + border / 2 + k * each, line, points, bold=cell.bold,
-                                  centred=not column.part)
-                    left += wide
-                top += heights[i]
+        def draw(i: int, top: float) -> None:
+            if i % 2 == 0:
+                self.box(x, top, width, heights[i], "#f4f4f4" if i else style.LIGHT_GREY)
+            left = x
+            for column, wide, cell, of_cell in zip(columns, widths, all_rows[i], lines[i]):
+                for k, line in enumerate(of_cell):
+                    self.line(left + border if column.part else left + wide / 2, top + border / 2 + k * each, line, points, bold=cell.bold,
+                              colour=cell.colour, centred=not column.part)
+                left += wide
 
-        return Block(sum(heights), draw)
+        return [Block(height, functools.partial(draw, i)) for i, height in enumerate(heights)]

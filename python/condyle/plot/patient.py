@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import functools
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from matplotlib.figure import Figure
 
@@ -33,9 +33,9 @@ def figures_of(folder: Path, frames: Optional[Sequence[int]] = None, projection:
     return found + [("both", functools.partial(_both, limits))] * (len(limits) == 2)
 
 
-def sheets_of(folder: Path, heading: Mapping[str, str]) -> List[Drawing]:
-    """A page of each side, from what is there of its limits, measures and plan; `heading` has the case, date and note of `sheet`."""
-    sheets: List[Drawing] = []
+def sheets_of(folder: Path, heading: Mapping[str, str]) -> List[Tuple[str, Callable[[], List[Figure]]]]:
+    """Pages of each side, from what is there of its limits, measures and plan; `heading` has the case, date and note of `sheet`."""
+    sheets: List[Tuple[str, Callable[[], List[Figure]]]] = []
     for side in sides_of(folder):
         parts = [folder / side / part for part, name in _SHEET.items() if (folder / side / part / name).exists()]
         sheets.append((f"{side}/sheet", functools.partial(sheet, parts, **heading)))

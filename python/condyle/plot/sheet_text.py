@@ -4,9 +4,10 @@ from __future__ import annotations
 import re
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
+from . import style
 from .case_files import Case, inputs_of, provenance_of
-from .limit_bars import ENDS, turned_text
-from .motion_ends import MotionEnd, motion_ends
+from .limit_bars import ENDS, ends_of, value_text
+from .motion_ends import MotionEnd
 from .rim_clock import clock_text
 from .words import MINUS, capitalised, in_sentence, motion_name, number, spaced
 
@@ -16,26 +17,59 @@ CHANGED_DEG = 0.05
 CONTACTS = ("impingement", "contact")
 """Ends at which the bodies are named that meet."""
 
+FREE = ("end_of_range", "translation_ends")
+"""Ends at which nothing was met."""
+
+DECIDE = ("target_blocked", "band_not_reached", "neck_is_narrowed", "bones_touch", "cut_by_view", "flat_end", "limit_on_cut", "limit_on_part_cut", "limit_on_piece",
+          "head_socket_apart", "centre_moves_limits", "centre_off_head", "no_head", "low_coverage", "inverted_mesh", "open_mesh", "doubled_triangles",
+          "coarse_mesh", "bearing_is_swept", "burr_meets_kept", "narrow_bearing_margin", "alpha_stays", "more_than_must", "caveat")
+"""Codes of notes that may change whether and how one cuts, the gravest first: at most five stand on the first page."""
+
 
 class Row(NamedTuple):
-    """A motion: where it ends now, the bodies or meshes that meet there, what is asked for, and where it ends after the cut."""
+    """A motion: where it ends now, the bodies or meshes that meet there, what is asked for, where it ends after the cut, and what is known of living hips."""
 
     now: MotionEnd
     pair: str
     is_of_parts: bool
     target: Optional[Dict[str, Any]]
     after: Optional[MotionEnd]
-    gain_deg: float = 0.0
+    gain_deg: float
+    limit: Dict[str, Any]
 
     @property
     def is_changed(self) -> bool:
         """Whether the cut changes the limit: what smaller triangles around it change is no gain."""
         return abs(self.gain_deg) >= CHANGED_DEG
 
+    @property
+    def ends(self) -> List[MotionEnd]:
+        """Now and, of a plan, after the cut: both with their bands, or neither."""
+        ends = [self.now, *([self.after] if self.after else [])]
+        return ends if all(end.band for end in ends) else [end._replace(band=None) for end in ends]
 
-def _ends(plan: Dict[str, Any], when: str) -> List[MotionEnd]:
-    listed = [{"name": each["motion"], **each[when]} for each in plan["limits"]]
-    return motion_ends({"motions": listed}) if listed else []
+    @property
+    def living(self) -> Tuple[str, bool]:
+        """As in `rom`'s column of living hips, and whether that is a clinical range only."""
+        text = str((self.limit.get("living") or {}).get("text", "")).strip("-")
+        return text, text.startswith("clinical")
+
+    @property
+    def lacks(self) -> Tuple[float, str]:
+        """By how much it ends before its target; without one before bone of healthy hips, if it is as short as with a cam, or its clinical range."""
+        bone = self.limit.get("bone_reference") or {}
+        deg, of = ((self.target["reach_deg"], "its target of {}") if self.target else (bone["healthy_deg"], "the {} of simulated healthy hips") if bone.get("is_short")
+                   else (self.now.normal_deg, "the clinical {}"))
+        if deg is None or self.now.end in FREE:
+            return 0.0, ""
+        return deg - self.now.turned_deg, of.format(degrees_text(deg))
+
+
+def _ends(plan: Dict[str, Any], when: str, band: str) -> Dict[str, MotionEnd]:
+    """Files of earlier versions have bands of targets only, or none."""
+    bands = {each["motion"]: each.get(band) for each in plan["targets"]}
+    listed = [{"name": each["motion"], "band": each.get(band) or bands.get(each["motion"]), **each[when]} for each in plan["limits"]]
+    return {end.name: end for end in ends_of({"motions": listed})} if listed else {}
 
 
 def _meeting(answer: Dict[str, Any], motion: Dict[str, Any]) -> Tuple[str, bool]:
@@ -47,16 +81,21 @@ def _meeting(answer: Dict[str, Any], motion: Dict[str, Any]) -> Tuple[str, bool]
 
 
 def rows_of(case: Case) -> List[Row]:
-    """The motions of the limits, then those that only the plan has."""
+    """The motions of the limits, then those that only the plan has. Where the cut changes nothing, the end after it is that before."""
     plan = case.plan or {"limits": [], "targets": []}
     targets = {each["motion"]: each for each in plan["targets"]}
-    after = {end.name: end for end in _ends(plan, "after")}
-    rows = [(end, *_meeting(case.rom, motion)) for end, motion in zip(motion_ends(case.rom), case.rom["motions"])] if case.rom else []
+    before, after = _ends(plan, "before", "before_band"), _ends(plan, "after", "band")
+    rows = [(end, *_meeting(case.rom, motion), motion) for end, motion in zip(ends_of(case.rom), case.rom["motions"])] if case.rom else []
     known = {end.name for end, *_ in rows}
-    rows += [(end, *_meeting(plan, {})) for end in _ends(plan, "before") if end.name not in known]
+    rows += [(end, *_meeting(plan, {}), {}) for name, end in before.items() if name not in known]
     # Files of earlier versions have no gains.
     gains = {each["motion"]: each.get("gain_deg", each["after"]["limit_deg"] - each["before"]["limit_deg"]) for each in plan["limits"]}
-    return [Row(*row, targets.get(row[0].name), after.get(row[0].name), gains.get(row[0].name, 0.0)) for row in rows]
+    found = []
+    for end, pair, is_of_parts, limit in rows:
+        now = end._replace(band=end.band or (before[end.name].band if end.name in before else None))
+        then, gain = after.get(end.name), gains.get(end.name, 0.0)
+        found.append(Row(now, pair, is_of_parts, targets.get(end.name), now if then and abs(gain) < CHANGED_DEG else then, gain, limit))
+    return found
 
 
 def patient_line(case: Case, name: str, date: str) -> str:
@@ -74,54 +113,84 @@ def degrees_text(degrees: float) -> str:
 
 def volume_text(cut: Dict[str, Any]) -> str:
     """ "164 mm³ of femur"."""
-    volume = cut["volume_mm3"]
-    return f"{volume:.{0 if volume >= 100 else 1}f} mm³ of {spaced(cut['name'])}"
+    return f"{cut['volume_mm3']:.{0 if cut['volume_mm3'] >= 100 else 1}f} mm³ of {spaced(cut['name'])}"
 
 
-def heading(case: Case) -> str:
-    """What the sheet shows: a plan, or the joint as it is."""
+def _doubts(plan: Dict[str, Any], target: Dict[str, Any]) -> Tuple[bool, bool, bool]:
+    """Whether the planned joint ends before the target; is no plan, as about the other centre it ends before today's limit; or is not decided: about
+    that centre, or as fewer displaced joints reach the target than asked for, half if that is not said, or nobody knows how many."""
+    reach, band, share = target["reach_deg"] - CHANGED_DEG, target["band"], target.get("confidence_reached")
+    is_rare = share < (plan.get("confidence") or 0.5) - 1e-9 if share is not None else band["median_deg"] <= reach if band else bool(_cuts(plan))
+    return target["after"]["limit_deg"] <= reach, not target.get("is_plan", True), is_rare or not (target.get("other_centre") or {"is_decided": True})["is_decided"]
+
+
+def heading(case: Case) -> Tuple[str, str]:
+    """What the sheet shows in a line, with its colour: a plan, if it is one, or the joint as it is."""
     if case.plan is None:
-        beside = ", and designs beside it" if case.sweep else ""
-        return f"NOW: {'limits of ' if case.rom else ''}the joint as it is{beside}"
-    cuts = [volume_text(cut) for cut in case.plan["cuts"] if cut["volume_mm3"] > 0]
-    return f"PLANNED: {' and '.join(cuts)} removed; limits after it beside those now" if cuts else "PLANNED: no bone has to go"
+        beside = ", and designs beside it" if case.sweep else "; nothing is planned" * bool(case.rom)
+        return f"NOW: {'limits of ' if case.rom else ''}the joint as it is{beside}", "#555555"
+    cuts = _cuts(case.plan)
+    said = "TARGET NOT REACHED: {} removed", "NO PLAN: {} removed may gain nothing", "NOT DECIDED: {} removed may not be enough"
+    for words, is_so in zip(said, max((_doubts(case.plan, target) for target in case.plan["targets"]), default=())):
+        if is_so:
+            return words.format(cuts or "no bone"), style.VERMILION
+    return (f"PLANNED: {cuts} removed", "#00704f") if cuts else ("PLANNED: no bone has to go", "#555555")
 
 
-def _end_words(row: Row) -> str:
-    words = ENDS[row.now.end].words
-    where = f" at {clock_text(row.now.hour)} of the clock" if row.now.hour is not None else ""
-    return f"ended by {words} of {row.pair}{where}" if row.now.end in CONTACTS else words
+def _cuts(plan: Dict[str, Any]) -> str:
+    return " and ".join(volume_text(cut) for cut in plan["cuts"] if cut["volume_mm3"] > 0)
 
 
-def limited_most(rows: List[Row]) -> str:
-    """The motion that lacks most of its target; without targets, of its clinical range; where none lacks anything, the one that turns least."""
-    asked = {"target": [row.target["reach_deg"] if row.target else None for row in rows], "clinical range": [row.now.normal_deg for row in rows]}
-    for wanted, degrees in asked.items():
-        lacks = [0.0 if each is None else each - row.now.turned_deg for row, each in zip(rows, degrees)]
-        most = max(range(len(rows)), key=lacks.__getitem__)
-        if lacks[most] >= CHANGED_DEG:
-            return (f"{motion_name(rows[most].now.name)} lacks most of its {wanted}: {turned_text(rows[most].now)} of {degrees_text(degrees[most])}, "
-                    f"{_end_words(rows[most])}.")
-    least = min(rows, key=lambda row: row.now.turned_deg)
-    known = " or ".join(wanted for wanted, degrees in asked.items() if any(each is not None for each in degrees))
-    first = f"No motion ends before its {known}. " if known else ""
-    return f"{first}{motion_name(least.now.name)} turns least: {turned_text(least.now)}, {_end_words(least)}."
+def headline(case: Case, rows: List[Row]) -> Row:
+    """The motion that the sheet speaks of: of the targets the one most in doubt, else what lacks most; else of a hip rotation in flexion, else what turns
+    least."""
+    if case.plan and case.plan["targets"]:
+        plan = case.plan
+        return max((row for row in rows if row.target), key=lambda row: (_doubts(plan, row.target or {}), row.lacks[0]))
+    most = max(rows, key=lambda row: row.lacks[0])
+    if most.lacks[0] >= CHANGED_DEG:
+        return most
+    ending = [row for row in rows if row.now.end not in FREE] or rows
+    return next((row for row in ending if row.now.name == "internal_rotation_at_90_flexion"), min(ending, key=lambda row: row.now.turned_deg))
 
 
-def reached(plan: Dict[str, Any]) -> List[str]:
-    """A sentence for each target."""
-    said = []
-    for target in plan["targets"]:
-        short = target["reach_deg"] - target["after"]["limit_deg"]
-        how = f"its target of {degrees_text(target['reach_deg'])}" if short < CHANGED_DEG else f"{short:.1f}° short of its target"
-        band = f"; 5 to 95 % of displaced joints reach {target['band']['p5_deg']:.0f} to {target['band']['p95_deg']:.0f}°" if target["band"] else ""
-        said.append(f"{motion_name(target['motion'])} reaches {target['after']['limit_deg']:.1f}° after the cut, {how}{band}.")
-    if plan["margin_mm"] > 0:
-        said.append(f"Planned with a margin of {number(plan['margin_mm'])} mm.")
-    return said
+def verdict(case: Case, rows: List[Row]) -> List[str]:
+    """What limits the joint; what the plan gives, and whether that is decided."""
+    row = headline(case, rows)
+    name, (lacks, wanted) = motion_name(row.now.name), row.lacks
+    where = f" at {clock_text(row.now.hour)} of the socket's clock" if row.now.hour is not None else ""
+    how = f"{row.pair}{where}" if row.now.end in CONTACTS else ENDS[row.now.end].words
+    short = f", {degrees_text(lacks)} short of {wanted}" if lacks >= CHANGED_DEG and not row.target else ""
+    first = f"{name} ends at {value_text(row.now)}, {how}{short}."
+    if row.now.end in FREE:
+        first = f"{name} is free to {degrees_text(row.now.turned_deg)}, where its range ends."
+    if case.plan and row.target:
+        return [first, _promise(row.target)]
+    compared = ["its clinical range"] * any(each.now.normal_deg is not None for each in rows)
+    compared += [f"the {bone['healthy_deg']:g}° of simulated healthy hips" for each in rows for bone in (each.limit.get("bone_reference"),)
+                 if bone and each.now.turned_deg >= bone["healthy_deg"]]
+    return [first, f"No motion ends before {' or '.join(compared)}."] if compared and lacks < CHANGED_DEG else [first]
 
 
-def how_sure(case: Case) -> str:
+def _promise(target: Dict[str, Any]) -> str:
+    """How far the plan goes, in how many displaced joints, and about which centre, in the words of every shell; of files of earlier versions what they have."""
+    lacks, band, text = target["reach_deg"] - target["after"]["limit_deg"], target["band"], target.get("text")
+    if not text:
+        reach = f"{lacks:.1f}° short of" if lacks >= CHANGED_DEG else "which is"
+        share = f"5 to 95 % of displaced joints reach {band['p5_deg']:.0f} to {band['p95_deg']:.0f}°" if band else "in how many displaced joints was not computed"
+        text = f"ends at {target['after']['limit_deg']:.1f}°, {reach} its target of {degrees_text(target['reach_deg'])}; {share}"
+    return f"After the cut: {text.replace(' deg', '°').replace('mm3', 'mm³')}."
+
+
+def other_targets(case: Case, first: str) -> List[str]:
+    """What the plan gives of all targets but the first, and its margin."""
+    if case.plan is None:
+        return []
+    said = [f"{motion_name(target['motion'])}: {_promise(target)}" for target in case.plan["targets"] if target["motion"] != first]
+    return said + [f"Planned with a margin of {number(round(case.plan['margin_mm'], 2))} mm."] * (case.plan["margin_mm"] > 0)
+
+
+def how_sure(case: Case, rows: List[Row]) -> str:
     """What the bands are of, and which there are not."""
     said = ["Limits are bounded or searched for, not exact."] if case.rom and case.rom.get("exact") is False else []
     band = case.rom and case.rom.get("band")
@@ -133,11 +202,8 @@ def how_sure(case: Case) -> str:
         said.append(f"Band: 5 to 95 % of {band['samples']} joints displaced at random, standard deviations {', '.join(sigmas)}.")
     elif case.rom:
         said.append("No band: condyle rom --band computes how far limits move in displaced joints.")
-    if case.plan and any(target["band"] for target in case.plan["targets"]):
-        said.append("In brackets: 5 to 95 % after the cut.")
-    elif case.plan:
-        said.append("Planned limits have no band: condyle resect --band computes one for the targets.")
-    return " ".join(said)
+    alone = [in_sentence(row.now.name) for row in rows if row.is_changed and row.now.band and not (row.after and row.after.band)]
+    return " ".join(said + [f"No bands of {', '.join(alone)}: after the cut only those of targets are computed."] * bool(alone))
 
 
 def _changes(plan: Dict[str, Any]) -> Dict[str, Tuple[float, float]]:
@@ -182,36 +248,52 @@ def sweep_line(sweep: Dict[str, Any]) -> str:
 
 
 class Note(NamedTuple):
-    """A note and the file that has it."""
+    """A note; `grave` is its place among those that may change a decision, the first of which is 0, and more for all others."""
 
     text: str
-    file: str
+    grave: int
 
 
 def notes(case: Case) -> List[Note]:
-    """All notes, each once, motions and measures in words; then what usually ends motions, by the studies that say so."""
+    """All notes, each once, motions and measures in words; what is left out; then what usually ends motions, by the studies that say so."""
     words = {row.now.name: in_sentence(row.now.name) for row in rows_of(case)}
     words.update((key, _measure_name(key)[0]) for key in (case.measures["measures"] if case.measures else {}))
     name = re.compile(r"\b(" + "|".join(map(re.escape, sorted(words, key=len, reverse=True))) + r")\b")
-    found: Dict[str, str] = {}
-    for file, answer in case.answers():
+    found: Dict[str, Note] = {}
+
+    def add(text: str, code: str, when: str = "") -> None:
+        said = name.sub(lambda match: words[match[0]], text.rstrip(".")) if words else text.rstrip(".")
+        if said not in found:
+            found[said] = Note(f"{when}{capitalised(said)}.", DECIDE.index(code) if code in DECIDE and not when else len(DECIDE))
+
+    for _, answer in case.answers():
         for key in ("resection_notes", "sweep_notes", "notes"):
             for note in answer.get(key, []):
-                text = name.sub(lambda match: words[match[0]], note["text"]) if words else note["text"]
-                found.setdefault(f"{capitalised(text.rstrip('.'))}.", file)
+                add(note["text"], note.get("code", ""), "After the cut: " * (answer is case.plan and key == "notes" and case.rom is not None))
+    for _, answer in case.answers():
+        for caveat in answer.get("caveats", []):
+            add(caveat, "caveat" if answer is case.plan else "")
     usual: Dict[str, List[str]] = {}
     for limit in case.rom["motions"] if case.rom else []:
-        for caveat in limit.get("caveats", []):
-            source = f" ({caveat['source']})" if caveat.get("source") else ""
-            usual.setdefault(f"{str(caveat.get('text', '')).rstrip('.')}{source}.", []).append(in_sentence(limit["name"]))
-    return ([Note(text, file) for text, file in found.items()] +
-            [Note(f"{capitalised(', '.join(of))}: {text}", case.paths["rom"].name) for text, of in usual.items()])
+        gap, people = ((limit.get("living") or {}).get(key) for key in ("gap", "people"))
+        said = [(str(caveat.get("text", "")).rstrip("."), caveat.get("source")) for caveat in limit.get("caveats", [])]
+        said += [(f"soft tissue ended it {gap['mean_deg']:g}° (SD {gap['sd_deg']:g}°) before bone did in {gap['hips']} hips of cadavers", gap["source"])] if gap else []
+        said += [(f"living hips are of {people['who']}", people["source"])] if people else []
+        said += [("clinical range", case.rom.get("normal_range_source") if case.rom else None)] * (limit.get("normal_range_deg") is not None and not people)
+        for text, source in said:
+            usual.setdefault(f"{text}{f' ({source})' if source else ''}.", []).append(in_sentence(limit["name"]))
+    return list(found.values()) + [Note(f"{capitalised(', '.join(of))}: {text}", len(DECIDE)) for text, of in usual.items()]
 
 
-def not_modelled(case: Case) -> str:
-    """Caveats and the scope, each once."""
-    said = [each for _, answer in case.answers() for each in answer.get("caveats", [])] + [answer["scope"] for _, answer in case.answers()]
-    return " ".join(f"{capitalised(each)}." for each in dict.fromkeys(said))
+def first_and_rest(said: List[Note]) -> Tuple[List[Note], List[Note]]:
+    """At most five notes that may change a decision, the gravest first, and all others."""
+    first = sorted((note for note in said if note.grave < len(DECIDE)), key=lambda note: note.grave)[:5]
+    return first, [note for note in said if note not in first]
+
+
+def scope(case: Case) -> str:
+    """What is modelled, each once."""
+    return " ".join(f"{capitalised(each)}." for each in dict.fromkeys(answer["scope"] for _, answer in case.answers()))
 
 
 def made_from(case: Case) -> str:

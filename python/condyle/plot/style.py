@@ -5,7 +5,7 @@ import contextlib
 import io
 import os
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -185,7 +185,7 @@ def rendered_pages(figures: Sequence[Figure], dpi: float = 300) -> bytes:
 
 def save(drawn: Union[Axes, Figure, Sequence[Figure]], path: Union[str, Path], dpi: float = 300) -> None:
     """Writes the figure of these axes; the ending of the name is the format: .pdf, .svg or .png (`dpi` dots per inch). Several figures are pages
-    of one .pdf.
+    of one .pdf, or pictures with their numbers from the second on: case.png, case-2.png.
 
     Raises UsageError for another ending. The file appears whole or not at all.
     """
@@ -194,11 +194,18 @@ def save(drawn: Union[Axes, Figure, Sequence[Figure]], path: Union[str, Path], d
     if format not in FORMATS:
         raise UsageError(f"{path}: figures are written as .pdf, .svg or .png")
     if isinstance(drawn, Sequence):
-        if format != "pdf":
-            raise UsageError(f"{path}: several figures are written as .pdf")
-        return write_whole(path, rendered_pages(drawn, dpi))
+        for name, content in rendered_files(drawn, path, dpi):
+            write_whole(name, content)
+        return
     figure = drawn if isinstance(drawn, Figure) else drawn.figure
     write_whole(path, rendered(figure, format, dpi))
+
+
+def rendered_files(pages: Sequence[Figure], path: Path, dpi: float = 300) -> List[Tuple[Path, bytes]]:
+    """Files of several figures: a PDF with a page of each, or pictures, from the second on with its number behind the name."""
+    if path.suffix.lower() == ".pdf":
+        return [(path, rendered_pages(pages, dpi))]
+    return [(path.with_stem(f"{path.stem}-{i}") if i > 1 else path, rendered(page, path.suffix[1:].lower(), dpi)) for i, page in enumerate(pages, 1)]
 
 
 def write_whole(path: Path, content: bytes) -> None:

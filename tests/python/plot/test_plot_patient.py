@@ -6,7 +6,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pytest
 from test_plot_folders import closed, run  # noqa: F401
-from test_plot_sheet import COMMON, motion, plan, rom, said_in
+from test_plot_sheet import COMMON, motion, plan, rom, said_in, texts_of
 
 from condyle.plot.patient import figures_of, sheets_of
 
@@ -42,7 +42,7 @@ def test_both_sides_have_figures_a_sheet_and_a_figure_together(tmp_path):
         "both.pdf", "left/sheet.pdf", "right/sheet.pdf"]
     for side in ("left", "right"):
         said = said_in((at / side / "sheet.pdf").read_bytes())
-        for words in (f"Case 17 · {side} hip", "2026-11-27", "cam on CT", "PLANNED: 164 mm³ of femur", "FADIR reaches 36.0° after the cut"):
+        for words in (f"Case 17 · {side} hip", "2026-11-27", "cam on CT", "NOT DECIDED: 164 mm³ of femur", "After the cut: ends at 36.0°"):
             assert words in said, words
 
 
@@ -71,7 +71,7 @@ def test_shapes_are_drawn_where_there_are_some_and_stand_on_the_sheet(tmp_path):
     neck = [{"hour": hour, "alpha_deg": 50.0, "alpha_at_1mm_deg": 45.0, "offset_mm": 8.0} for hour in range(12)]
     write(file, {**HOURS, "around_neck": neck, "notes": [{"code": "n", "text": "only of the shape"}]})
     assert [name for name, _ in figures_of(at)] == ["left/limits/limits", "left/limits/clock_face", "left/measures/hip_shape"]
-    assert "Only of the shape" in " ".join(text.get_text() for text in sheet().texts)
+    assert "Only of the shape" in texts_of(sheet())
 
 
 @pytest.mark.parametrize("heading", ["--case", "--date", "--note"])
@@ -115,5 +115,5 @@ def test_what_the_command_writes_is_drawn(tmp_path, command, coarse_hip_file):
     turned = sorted(each["limit_deg"] for answer in answers for each in answer["motions"])
     assert len(answers) == 2 and sorted(bar.get_width() for bar in ax.patches if bar.get_gid() == "limit") == turned
     for name, draw in sheets_of(tmp_path, {"case": "Case 17"}):
-        said = " ".join(text.get_text() for text in draw().texts)
-        assert f"Case 17 · {name.split('/')[0]} hip" in said and "PLANNED" in said and "alpha at 1:30 " in said
+        said = texts_of(draw())
+        assert f"Case 17 · {name.split('/')[0]} hip" in said and "After the cut: " in said and "alpha at 1:30 " in said

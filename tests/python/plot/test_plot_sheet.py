@@ -1,4 +1,4 @@
-"""A case on one sheet: one page of text that can be selected, nothing over anything else, nothing cut off."""
+"""A case on paper: a first page to decide by, text that can be selected, nothing over anything else, nothing cut off, nothing left out."""
 import copy
 import itertools
 import json
@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 import condyle
@@ -98,9 +99,14 @@ def boxes(figure: plt.Figure) -> "list[tuple[str, Bbox]]":
     return [(text, Bbox(box.get_points() * scale)) for text, box in found]
 
 
-def is_tidy(figure: plt.Figure) -> bool:
-    """No text runs into another or over the edge. Boxes have the lines' height, of which letters with descenders leave a part free."""
+def is_tidy(pages: "list[plt.Figure]") -> bool:
+    """No text runs into another or over the edge, none is small. Boxes have the lines' height, of which letters with descenders leave a part free."""
+    return all(map(_is_tidy, pages))
+
+
+def _is_tidy(figure: plt.Figure) -> bool:
     found = boxes(figure)
+    assert min(text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()) >= 7
     for text, box in found:
         assert box.x0 >= 10 and box.y0 >= 10 and box.x1 <= 585 and box.y1 <= 832, text
     for (text, box), (other, over) in itertools.combinations(found, 2):
@@ -110,8 +116,8 @@ def is_tidy(figure: plt.Figure) -> bool:
     return True
 
 
-def texts_of(figure: plt.Figure) -> str:
-    return " ".join(" ".join(text.get_text() for text in figure.texts).split())
+def texts_of(pages: "list[plt.Figure]") -> str:
+    return " ".join(" ".join(text.get_text() for page in pages for text in page.texts).split())
 
 
 @pytest.fixture(autouse=True)
@@ -121,6 +127,7 @@ def closed():
 
 
 MANY = [f"{LONG} {i}".replace(" ", "_") if i % 4 == 0 else f"motion_{i}_$x^2$" for i in range(24)]
+CODES = ["neck_is_narrowed", "cut_by_view", "target_blocked", "low_coverage", "open_mesh", "no_head"]
 NOTES = [f"this is note {i}, which says at some length what one has to know of the joint before one trusts any number above it" for i in range(12)]
 
 
@@ -134,8 +141,10 @@ def full(tmp_path_factory) -> Path:
                for i, name in enumerate(MANY)]
     limits = [(name, 30.25 + i, 30.25 + 2 * i) for i, name in enumerate(MANY)]
     answer = plan(*limits, targets={name: 55.5 for name in MANY[:3]}, notes=[{"code": "n", "text": text} for text in NOTES[6:]])
+    answer["resection_notes"] = [{"code": code, "text": f"{code} may change a decision"} for code in CODES]
     answer["cuts"].append({**answer["cuts"][0], "body": "fixed", "name": "hip_bone", "deepest_mm": 0.9, "deepest_hour": None})
-    answer["targets"][0]["band"] = {"p5_deg": 31.2, "median_deg": 40, "p95_deg": 47.9}
+    answer["targets"][0].update(band={"p5_deg": 31.2, "median_deg": 40, "p95_deg": 47.9},
+                                other_centre={"centre": "socket", "before_deg": 18.04, "after_deg": 25.06, "is_decided": False})
     picture(at / "depth_mobile.png")
     picture(at / "depth_fixed.png")
     notes = [{"code": "n", "text": text} for text in NOTES[:7]]
@@ -144,22 +153,22 @@ def full(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def drawn(full) -> plt.Figure:
+def drawn(full) -> "list[plt.Figure]":
     return figures.sheet([full], case="Case 17", date="2026-11-27", note="cam on CT " * 20)
 
 
 @pytest.fixture(scope="module")
 def pdf(drawn) -> bytes:
-    return figures.style.rendered(drawn, "pdf", DPI)
+    return figures.style.rendered_pages(drawn, DPI)
 
 
-def test_a_sheet_is_one_page_with_its_fonts_in_it_and_small(pdf):
-    assert len(re.findall(rb"/Type /Page\b", pdf)) == 1
-    (width, height), = re.findall(rb"/MediaBox \[ 0 0 (\S+) (\S+) \]", pdf)
-    assert (float(width), float(height)) == pytest.approx((210 / 25.4 * 72, 297 / 25.4 * 72))
+def test_pages_are_a4_with_their_fonts_in_the_file_and_small(pdf, drawn):
+    assert len(re.findall(rb"/Type /Page\b", pdf)) == len(drawn) > 1
+    for width, height in re.findall(rb"/MediaBox \[ 0 0 (\S+) (\S+) \]", pdf):
+        assert (float(width), float(height)) == pytest.approx((210 / 25.4 * 72, 297 / 25.4 * 72))
     assert len(re.findall(rb"/FontFile2 \d+ 0 R", pdf)) == len(re.findall(rb"/Type /FontDescriptor", pdf)) >= 2
     assert len(re.findall(rb"/ToUnicode \d+ 0 R", pdf)) == len(re.findall(rb"/Subtype /Type0", pdf)) >= 2
-    assert len(pdf) < 1_000_000
+    assert len(pdf) < 2 * (110 / 25.4 * DPI) * (82.5 / 25.4 * DPI) * 3 + 100_000  # two pictures of noise, three bytes a point
 
 
 def test_every_limit_and_every_note_stands_in_it_as_text(pdf):
@@ -168,44 +177,46 @@ def test_every_limit_and_every_note_stands_in_it_as_text(pdf):
         assert figures_of(i) in said and figures.words.motion_name(name)[:20] in said
     assert f"I{LONG[1:]} 20" in said and "Motion 1 $x^2$" in said
     for note in NOTES:
-        assert said.count(f"• T{note[1:]}.") == said.count(note[1:]) == 1
-    for words in ("Case 17", "left hip", "a hip", "2026-11-27", "cam on CT", "PLANNED: 164 mm³ of femur and 164 mm³ of hip bone removed",
-                  "30.2° (31–48)", "AAOS 1965", "Condyle 9.8.7", "hip.toml abababab, hip_bone.ply cdcdcdcd, femur.ply efefefef",
+        assert said.count(note[1:]) == 1
+    assert said.count("may change a decision") == len(CODES) and f"After the cut: T{NOTES[9][1:]}" in said
+    for words in ("Case 17", "left hip", "a hip", "2026-11-27", "cam on CT", "TARGET NOT REACHED: 164 mm³ of femur and 164 mm³ of hip bone removed",
+                  "AAOS 1965", "Condyle 9.8.7", "hip.toml abababab, hip_bone.ply cdcdcdcd, femur.ply efefefef",
                   "Motion 3 $x^2$: Soft tissue ends this motion before bone does (a study).", "Motion 3 $x^2$ †",
                   "200 joints displaced at random, standard deviations centre 0.5 mm, axes 1°.", "Planned with a margin of 0.5 mm.",
-                  "Motion 2 $x^2$ reaches 34.2° after the cut, 21.2° short of its target.",
-                  "shoes 0 reaches 30.2° after the cut, 25.2° short of its target; 5 to 95 % of displaced joints reach 31 to 48°.", "the strength of the remaining bone are not modelled. Osseous contact",
-                  "not a medical device", "2.74 mm at the deepest, at 2:31 of the neck", "1:30–2:00 1.9, 2:00–2:30 2.7",
+                  "Motion 2 $x^2$: After the cut: ends at 34.2°, 21.2° short of its target of 55.5°; in how many displaced joints was not computed.",
+                  "5 to 95 % of displaced joints reach 31 to 48°.", "the strength of the remaining bone are not modelled.",
+                  "Osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical device.", "2.7 mm at the deepest, at 2:31 of the neck's clock", "1:30–2:00 1.9, 2:00–2:30 2.7",
                   "head neck offset at 1:30 6.4 → 8.8 mm", "12:15 (2)"):
         assert words in said, words
-    assert "motion now target planned band now normal ended by clock" in said and "secret" not in said and "neck shaft" not in said
+    assert "motion now target planned socket's centre ended by (socket's clock)" in said and "secret" not in said and "neck shaft" not in said
 
 
 def figures_of(i: int) -> str:
-    """A row of the table from its limit on."""
-    target, band = ("55.5°", " (31–48)" * (i == 0)) if i < 3 else ("–", "")
-    hour = f"{i // 4 or 12}:{i % 4 * 15:02d}"
-    return f"{30.25 + i:.1f}° {target} {30.25 + 2 * i:.1f}°{band} 20–42° {45 + i}° impingement {hour}"
+    """A row of the table from its limit on: bands in both columns, or in neither if the cut moves what has one before it only."""
+    target, now, then = "55.5°" if i < 3 else "–", " (20–42)" * (i == 0), " (20–42) 18.0 → 25.1°" if i == 0 else " –"
+    return f"{30.25 + i:.1f}°{now} {target} {30.25 + 2 * i:.1f}°{then} impingement, {i // 4 or 12}:{i % 4 * 15:02d}"
 
 
-def test_nothing_overlaps_and_nothing_is_cut_off(drawn):
+def test_nothing_overlaps_nothing_is_cut_off_and_no_letter_is_below_7_points(drawn):
     assert is_tidy(drawn)
 
 
-def test_notes_that_do_not_fit_in_the_smallest_type_are_counted(full, tmp_path):
+def test_the_first_page_has_the_five_gravest_notes_and_any_number_follows(full, tmp_path, drawn):
+    first = [text.split(" may")[0].lower() for text in texts_of(drawn[:1]).split("• ")[1:]]
+    assert first == ["target_blocked", "neck_is_narrowed", "cut_by_view", "no_head", "low_coverage"]
     answer = json.loads((full / "rom.json").read_text())
-    answer["notes"] = [{"code": "n", "text": f"{i}: {NOTES[0] * 3}"} for i in range(60)]
-    figure = figures.sheet([folder(tmp_path, rom=answer)])
-    said = texts_of(figure)
-    left_out, = map(int, re.findall(r"(\d+) more in rom\.json\.", said))
-    assert is_tidy(figure) and all(f"• {i}: " in said for i in range(61 - left_out)) and f"• {61 - left_out}: " not in said and 10 < left_out < 60
+    answer["notes"] = [{"code": "n", "text": f"{i}: {NOTES[0] * (60 if i == 7 else 3)}"} for i in range(30)]
+    pages = figures.sheet([folder(tmp_path, rom=answer)])
+    assert is_tidy(pages) and len(pages) > 2 and all(f"• {i}: " in texts_of(pages) for i in range(30))
 
 
-def test_what_fits_on_no_page_is_refused(tmp_path, capsys):
-    many = folder(tmp_path, rom=rom(*(motion(f"motion_{i}", 30) for i in range(200))))
+def test_what_leaves_no_room_on_the_first_page_is_refused_and_many_motions_go_on_behind_it(tmp_path, capsys):
+    many = folder(tmp_path, rom=rom(*(motion(f"motion_{i}", 30) for i in range(70))))
+    assert main(["sheet", str(many), "--out", str(tmp_path / "a.png")]) == 0
+    assert capsys.readouterr().out.split() == [str(tmp_path / name) for name in ("a.png", "a-2.png")]
     with pytest.raises(SystemExit) as exit:
-        main(["sheet", str(many), "--out", str(tmp_path / "a.pdf")])
-    assert exit.value.code == 3 and "200 motions" in capsys.readouterr().err and not (tmp_path / "a.pdf").exists()
+        main(["sheet", str(many), "--note", LONG * 60, "--out", str(tmp_path / "a.pdf")])
+    assert exit.value.code == 3 and "no room for its limits" in capsys.readouterr().err and not (tmp_path / "a.pdf").exists()
 
 
 BEFORE, AFTER = ("flexion", 110.0, 110.0), ("fadir", 20.0, 36.0)
@@ -215,39 +226,82 @@ def case(at: Path, *motions: "dict[str, object]", plan_of: "dict[str, object] | 
     return read_case([folder(at, rom=rom(*motions), **({"resection": plan_of} if plan_of else {}))])
 
 
-def test_the_motion_that_lacks_most_is_named_with_what_ends_it(tmp_path):
+def test_without_a_plan_the_verdict_is_on_what_lacks_most(tmp_path):
+    bone = {"healthy_deg": 27.9, "is_short": True}
+    short = motion("internal_rotation_at_90_flexion", 12, bone_reference=bone, clock_hour=1.25)
+    flexion = motion("flexion", 100, normal_range_deg=120)
+    fine = motion("internal_rotation_at_90_flexion", 32, bone_reference={**bone, "is_short": False})
     parts = {"fixed": {"part": "liner"}, "mobile": {"part": "neck"}}
-    motions = motion("flexion", 100, normal_range_deg=120), motion("fadir", 20, clock_hour=1.25, features=parts)
-    planned = plan(("flexion", 100, 100), ("fadir", 20, 36), targets={"fadir": 35})
-    for n, (motions, planned, words) in enumerate((
-            (motions, planned, "FADIR lacks most of its target: 20.0° of 35°, ended by impingement of neck on liner at 1:15 of the clock."),
-            (motions, None, "Flexion lacks most of its clinical range: 100.0° of 120°, ended by impingement of femur on hip bone."),
-            ((motion("flexion", 125, normal_range_deg=120), motion("faber", 120, reason="end_of_range")), None,
-             "No motion ends before its clinical range. FABER turns least: >120°, no contact in the range."),
-            ((motion("faber", 0, reason="contact_at_start"),), None, "FABER turns least: 0.0°, in contact at the start."))):
-        assert sheet_text.limited_most(sheet_text.rows_of(case(tmp_path / str(n), *motions, plan_of=planned))) == words
+    for n, (motions, words) in enumerate((
+            ((flexion, short), "Flexion ends at 100.0°, femur on hip bone, 20° short of the clinical 120°."),
+            ((short,), "Internal rotation at 90° flexion ends at 12.0°, femur on hip bone at 1:15 of the socket's clock, 15.9° short of the 27.9° of simulated "
+             "healthy hips."),
+            ((motion("flexion", 125, normal_range_deg=120), fine), "Internal rotation at 90° flexion ends at 32.0°, femur on hip bone. No motion ends before its "
+             "clinical range or the 27.9° of simulated healthy hips."),
+            ((motion("fadir", 20, features=parts),), "FADIR ends at 20.0°, neck on liner."),
+            ((motion("faber", 120, reason="end_of_range", normal_range_deg=130),), "FABER is free to 120°, where its range ends."),
+            ((motion("faber", 0, reason="contact_at_start"),), "FABER ends at 0.0°, in contact at the start."))):
+        found = case(tmp_path / str(n), *motions)
+        assert sheet_text.heading(found)[0] == "NOW: limits of the joint as it is; nothing is planned"
+        assert " ".join(sheet_text.verdict(found, sheet_text.rows_of(found))).startswith(words)
 
 
-def test_a_plan_without_limits_has_its_own_and_one_that_removes_nothing_says_so(tmp_path):
+BAND = {"p5_deg": 27.0, "median_deg": 36.2, "p95_deg": 44.0, "text": "27–44"}
+OTHER = {"centre": "socket", "before_deg": 15.0, "after_deg": 25.1, "is_decided": False}
+
+
+@pytest.mark.parametrize("after, target, more, ribbon, promise", [
+    (36, {"confidence_reached": 0.5, "band": BAND, "text": "reaches 36.0 in 50 % of 200 displaced hips, 164 mm3"}, {}, "PLANNED: 164 mm³ of femur removed",
+     "reaches 36.0 in 50 % of 200 displaced hips, 164 mm³."),
+    (36, {"confidence_reached": 0.5, "band": BAND, "other_centre": OTHER, "text": "36.0 deg about the head's centre, 25.1 about the socket's: not decided"}, {},
+     "NOT DECIDED: 164 mm³ of femur removed may not be enough", "36.0° about the head's centre, 25.1 about the socket's: not decided."),
+    (36, {"confidence_reached": 0.5, "band": BAND, "other_centre": OTHER, "is_plan": False, "text": "no plan"}, {},
+     "NO PLAN: 164 mm³ of femur removed may gain nothing", "no plan."),
+    (36, {"confidence_reached": 0.15, "band": BAND, "text": "t"}, {}, "NOT DECIDED: 164", "t."),
+    (30, {"confidence_reached": 0.5, "band": BAND, "text": "t"}, {}, "TARGET NOT REACHED: 164 mm³ of femur removed", "t."),
+    (36, {"band": {**BAND, "median_deg": 33.0}}, {}, "NOT DECIDED: 164", "ends at 36.0°, which is its target of 36°; 5 to 95 % of displaced joints reach 27 to 44°."),
+    (36, {"band": BAND}, {}, "PLANNED: 164", "5 to 95 % of displaced joints reach 27 to 44°."),
+    (36, {}, {}, "NOT DECIDED: 164", "ends at 36.0°, which is its target of 36°; in how many displaced joints was not computed."),
+    (36, {}, {"cuts": []}, "PLANNED: no bone has to go", "in how many displaced joints was not computed.")])
+def test_a_plan_is_called_what_both_centres_and_displaced_joints_leave_of_it(tmp_path, after, target, more, ribbon, promise):
+    """Files of earlier versions lack keys."""
+    answer = plan(BEFORE, ("fadir", 20.0, after), targets={"fadir": 36}, confidence=0.5, **more)
+    answer["targets"][0].update(target, before_band=BAND)
+    found = case(tmp_path, motion("flexion", 110), motion("fadir", 20), plan_of=answer)
+    rows = sheet_text.rows_of(found)
+    assert sheet_text.heading(found)[0].startswith(ribbon) and sheet_text.headline(found, rows) is rows[1]
+    assert sheet_text.verdict(found, rows)[0] == "FADIR ends at 20.0° (27–44), femur on hip bone." and sheet_text.verdict(found, rows)[1].endswith(promise)
+    assert [bool(end.band) for end in rows[1].ends] == [bool(target.get("band"))] * 2
+
+
+def test_a_motion_that_gains_nothing_ends_where_it_did_and_columns_say_whose_numbers_they_hold(tmp_path):
+    band = {"p5_deg": 88.0, "median_deg": 120, "p95_deg": 120, "text": "88–>120"}
+    people = {"who": "clinical estimate", "source": "AAOS 1965"}
+    motions = (motion("internal_rotation", 102.557), motion("extension", 72.7, normal_range_deg=30, living={"text": "clinical 30", "expected_deg": None, "people": people}),
+               motion("faber", 120, reason="end_of_range", range_deg=120, band=band))
+    answer = plan(("internal_rotation", 102.557, 104.12), ("extension", 72.7, 72.7), targets={})
+    answer["limits"][0]["gain_deg"] = 0.0  # what finer triangles of the same surface add is no gain
+    pages = figures.sheet([folder(tmp_path, rom=rom(*motions), resection=answer)])
+    said = texts_of(pages)
+    assert "Internal rotation 102.6° 102.6° – impingement" in said and "FABER >120° (88–>120) – – no contact" in said and "Extension 72.7° 72.7° clinical 30" in said
+    assert [text.get_color() for text in pages[0].texts if text.get_text() == "clinical 30"] == [figures.style.GREY]
+    assert "Extension: living hips are of clinical estimate (AAOS 1965)." in said
+
+
+def test_columns_are_those_that_a_plan_without_limits_and_limits_without_a_plan_have(tmp_path):
     answer = plan(BEFORE, AFTER, targets={"fadir": 36}, cuts=[], depth_by_half_hour_mm=None)
-    figure = figures.sheet([folder(tmp_path, resection=answer) / "resection.json"])
-    said = texts_of(figure)
-    assert "PLANNED: no bone has to go" in said and "FADIR 20.0° 36° 36.0° contact" in said and "left side · a hip" in said and not figure.axes
-    assert "Planned limits have no band" in said
-
-
-def test_without_a_plan_the_heading_is_of_now_and_empty_columns_are_left_out(tmp_path):
-    figure = figures.sheet([folder(tmp_path, rom=rom(motion("flexion", 110, clock_hour=2), motion("extension", 20))) / "rom.json"])
-    said = texts_of(figure)
-    assert "NOW: limits of the joint as it is" in said and "PLANNED" not in said and "No band: condyle rom --band" in said
-    assert "motion now ended by clock 1 Flexion 110.0° impingement 2:00 2 Extension 20.0° impingement, away from the rim –" in said
+    said = texts_of(figures.sheet([folder(tmp_path, resection=answer) / "resection.json"]))
+    assert "PLANNED: no bone has to go" in said and "FADIR 20.0° 36° 36.0° contact" in said and "left side · a hip" in said
+    said = texts_of(figures.sheet([folder(tmp_path, rom=rom(motion("flexion", 110, clock_hour=2), motion("extension", 20))) / "rom.json"]))
+    assert "PLANNED" not in said and "No band: condyle rom --band" in said
+    assert "motion now ended by (socket's clock) 1 Flexion 110.0° impingement, 2:00 2 Extension 20.0° impingement, away from the rim" in said
 
 
 def test_motions_stand_in_notes_in_words_and_notes_that_two_files_have_once(tmp_path):
     note = {"code": "n", "text": "fadir and internal_rotation_at_90_flexion are far"}
     answer = plan(BEFORE, ("internal_rotation_at_90_flexion", 20, 25), targets={}, notes=[note])
     found = read_case([folder(tmp_path, rom=rom(motion("fadir", 20), notes=[note]), resection=answer)])
-    assert sheet_text.notes(found) == [("FADIR and internal rotation at 90° flexion are far.", "rom.json")]
+    assert [note.text for note in sheet_text.notes(found)][0] == "FADIR and internal rotation at 90° flexion are far."
 
 
 def test_results_of_two_joints_or_by_other_options_are_refused(tmp_path, capsys):
@@ -296,7 +350,7 @@ def test_wrong_inputs_are_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "words.png").write_text("no picture")
     (tmp_path / "other.json").write_text('{"condyle": 1}')
     for arguments, code, words in (([at], 2, "--out"), (["--out", "a.pdf"], 2, "INPUT"),
-                                   ([at, "--out", tmp_path / "a.doc"], 2, "a sheet is written as .pdf"),
+                                   ([at, "--out", tmp_path / "a.doc"], 2, "a sheet is written as .pdf or .png"),
                                    ([tmp_path, "--out", "a.pdf"], 3, "neither rom.json nor resection.json nor measures.json nor sweep.json"),
                                    ([tmp_path / "other.json", "--out", "a.pdf"], 3, "other.json: neither rom.json nor"),
                                    ([at, twice, "--out", "a.pdf"], 3, "is another rom.json"), ([tmp_path / "c", "--out", "a.pdf"], 3, "No such file"),
@@ -311,7 +365,7 @@ def test_a_picture_that_is_given_takes_the_place_of_the_cuts(tmp_path):
     at = folder(tmp_path / "a", resection=plan(BEFORE, AFTER, targets={}))
     picture(at / "depth_mobile.png", 40, 30)
     given = picture(tmp_path / "mine.png", 20, 20)
-    sizes = [[image.get_array().shape[:2] for ax in figures.sheet([at], picture=each).axes for image in ax.images] for each in (None, given)]
+    sizes = [[image.get_array().shape[:2] for ax in figures.sheet([at], picture=each)[0].axes for image in ax.images] for each in (None, given)]
     assert sizes == [[(30, 40)], [(20, 20)]]
 
 
@@ -322,9 +376,9 @@ def test_a_sweep_has_its_zone_its_targets_and_a_slice_of_more_than_two_parameter
                    {"stem.version": (5, 25, 10), "cup.inclination": (30, 50, 10), "cup.anteversion": (0, 30, 10)}):
         at = tmp_path / str(len(varied))
         joint.sweep(varied, [("sitting_on_a_low_chair", "flexion", 110), ("pivoting", "external_rotation", 40)]).write(at)
-        figure = figures.sheet([at / "sweep.json"])
-        said = texts_of(figure)
-        assert is_tidy(figure) and "NOW: the joint as it is, and designs beside it" in said and "sitting on a low chair 110°" in said
+        pages = figures.sheet([at / "sweep.json"])
+        said = texts_of(pages)
+        assert is_tidy(pages) and "NOW: the joint as it is, and designs beside it" in said and "sitting on a low chair 110°" in said
         assert "designs leave all targets free. As it is: " in said and "not from files" in said
         assert ("stem version" in said.split("Safe zone")[1].split("Notes")[0]) == (len(varied) == 3)
 
@@ -336,14 +390,14 @@ def test_what_the_command_writes_is_on_the_sheet(tmp_path, command, coarse_hip_f
     rom, plan = (json.loads((tmp_path / f"{name}.json").read_text()) for name in ("rom", "resection"))
     found = read_case([tmp_path])
     assert list(found.paths) == ["rom", "plan", "measures"]
-    figure = figures.sheet([tmp_path / "measures.json", tmp_path / "rom.json", tmp_path / "resection.json"])
-    said = texts_of(figure)
-    assert is_tidy(figure) and len([ax for ax in figure.axes if ax.images]) == 1
+    pages = figures.sheet([tmp_path / "measures.json", tmp_path / "rom.json", tmp_path / "resection.json"])
+    said = texts_of(pages)
+    assert is_tidy(pages) and len([ax for page in pages for ax in page.axes if ax.images]) == 1
     for limit, changed in zip(rom["motions"], plan["limits"]):
         assert limit["name"] == changed["motion"] and figures.words.motion_name(limit["name"]) in said
         if limit["reason"] == "contact":
-            assert f"{limit['limit_deg']:.1f}°" in said and f"{changed['after']['limit_deg']:.1f}°" in said
-    assert f"{plan['cuts'][0]['volume_mm3']:.1f} mm³ of femur" in said and f"{plan['cuts'][0]['deepest_mm']:.2f} mm at the deepest" in said
-    assert "FADIR reaches 48.0° after the cut, its target of 48°." in said and all(note.text in said for note in sheet_text.notes(found))
+            assert f"{limit['limit_deg']:.1f}°" in said and (not changed["gain_deg"] or f"{changed['after']['limit_deg']:.1f}°" in said)
+    assert f"{plan['cuts'][0]['volume_mm3']:.1f} mm³ of femur" in said and f"{plan['cuts'][0]['deepest_mm']:.1f} mm at the deepest" in said
+    assert "After the cut: " in said and all(note.text in said for note in sheet_text.notes(found))
     assert "• Femoral version: the mesh ends above the knee" in said
     assert rom["provenance"]["mobile_mesh"]["sha256"][:8] in said and "alpha at 1:30 " in said and " (30–66)" in said
