@@ -154,7 +154,9 @@ std::string text_of(const std::optional<LivingLimit>& living) {
                            living->expected_sd->degrees());
   if (!living || !living->people) return "-";
   const double low = living->people->low.degrees(), high = living->people->high.degrees();
-  return low == high ? core::formatted("people %.0f", low) : core::formatted("people %.0f–%.0f", low, high);
+  if (living->people->source == normal_hip_range_source) return core::formatted("clinical %.0f", low);
+  return low == high ? core::formatted("mean %.0f", low)
+                     : core::formatted("groups' means %.0f–%.0f", low, high);
 }
 
 }  // namespace condyle

@@ -28,7 +28,7 @@ struct SoftTissueGap {
   std::string_view source;
 };
 
-/// How far other people's hips turn, soft tissue included: means of several studies or positions, or one. Never of this joint.
+/// How far other people's hips turn, soft tissue included: between means of groups or positions, or one mean: people spread wider. Never of this joint.
 struct PeopleRange {
   Angle low, high;
   std::string_view who;
@@ -51,7 +51,7 @@ std::optional<LivingLimit> living_limit(const Joint& joint, const motion::Motion
 /// The same of the i-th limit of an answer, with its band if it has any; no end is expected where a depth was allowed, as bone does not end the motion.
 std::optional<LivingLimit> living_limit(const RangeAnswer& answer, std::size_t i);
 
-/// What a table has of one motion: "some 129 (SD 5)" where an end is expected, else "people 29–50", "-" if nothing is known.
+/// What a table has of one motion: "some 129 (SD 5)" where an end is expected, else "groups' means 29–50", "mean 38", "clinical 30", or "-".
 std::string text_of(const std::optional<LivingLimit>& living);
 
 }  // namespace condyle

@@ -164,8 +164,10 @@ TEST(LivingLimit, HasPeopleOfTheAgeAndSexAtHand) {
 TEST(LivingLimit, SaysInTextWhoseNumberItIs) {
   Joint joint = small_hip();
   EXPECT_EQ(text_of(living_limit(joint, impinging(flexion, plus, 0, 133.7), nullptr)), "some 131 (SD 4)");
-  EXPECT_EQ(text_of(living_limit(joint, impinging(flexion, minus, 0, 70), nullptr)), "people 30");
-  EXPECT_EQ(text_of(living_limit(joint, impinging(internal_rotation, plus, 0, 70), nullptr)), "people 29–50");
+  EXPECT_EQ(text_of(living_limit(joint, impinging(flexion, minus, 0, 70), nullptr)), "clinical 30");
+  EXPECT_EQ(text_of(living_limit(joint, impinging(internal_rotation, plus, 0, 70), nullptr)),
+            "groups' means 29–50");
+  EXPECT_EQ(text_of(living_limit(joint, impinging(internal_rotation, minus, 90, 70), nullptr)), "mean 41");
   EXPECT_EQ(text_of(std::nullopt), "-");
 }
 

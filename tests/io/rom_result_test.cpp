@@ -188,9 +188,9 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   EXPECT_TRUE(lines[7].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[7];
   EXPECT_NE(lines[8].find(" >40 "), std::string::npos) << lines[8];
   const std::size_t living = lines[6].find("living hips");
-  EXPECT_EQ(lines[7].find("people 120 "), living)
+  EXPECT_EQ(lines[7].find("clinical 120 "), living)
       << "it starts from adduction, which the cadavers' did not: " << lines[7];
-  EXPECT_EQ(lines[8].find("people 23–56"), living) << lines[8];
+  EXPECT_EQ(lines[8].find("groups' means 23–56"), living) << lines[8];
 }
 
 TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {

@@ -55,12 +55,14 @@ function arcText({ vary, sense, start_deg, limit_deg, reason }: MotionAnswer, mo
   return isNarrow ? arc : words.arcWith(arc, named(motionName(opposite.name.replace(/_at_.*/, ""))));
 }
 
-/// How much a motion lacks of its range in bone or in the clinic, or that range; and the total arc by `zero`, which is zeroOf(). One of them only if `isNarrow`.
-export function comparedText(motion: MotionAnswer, { motions }: RomAnswer, zero: string | null, isNarrow = false): string {
-  const lacks = deficitOf(motion), { normal_range_deg: clinical, bone_reference: bone } = motion;
+/// How much a motion lacks of its range in bone or in the clinic, or that range, or what is known of living hips; and the total arc by `zero`, which is zeroOf(). One of them only if `isNarrow`.
+export function comparedText(motion: MotionAnswer, { motions, normal_range_source }: RomAnswer, zero: string | null, isNarrow = false): string {
+  const lacks = deficitOf(motion), { normal_range_deg: clinical, bone_reference: bone, living } = motion;
   const range = bone ? String(bone.healthy_deg) : clinical === null ? null : clinical.toFixed(0);
+  const isOfLiving = living && living.text !== "-" && (living.expected_deg !== null || living.people?.source !== normal_range_source);
   return [
-    ...(range === null ? [] : [lacks !== null ? words.short(lacks.toFixed(0), range) : bone ? words.healthyIs(range) : words.clinicalIs(range)]),
+    ...(lacks !== null ? [words.short(lacks.toFixed(0), range!)] : bone ? [words.healthyIs(range!)] : isOfLiving ? [words.livingIs(living.text)] :
+      range === null ? [] : [words.clinicalIs(range)]),
     ...(zero && !(isNarrow && range !== null) ? [arcText(motion, motions, isNarrow || range !== null)] : []),
   ].filter(Boolean).join(" · ");
 }

@@ -78,6 +78,7 @@ export const words = {
   short: (lacks: string, normal: string) => `${lacks}° short of ${normal}°`,
   lacks: (lacks: string, clinical: string) => `${lacks}° short of the clinical ${clinical}°`,
   noClinical: "no clinical range known",
+  livingIs: (said: string) => `living hips ${said}`,
   healthyIs: (deg: string) => `healthy bone ${deg}°`,
   boneEnds: ({ healthy_deg, patients_deg, source }: BoneReference, isShort: boolean) =>
     `in simulated healthy hips at ${healthy_deg}°${isShort ? `, in patients with cam at ${patients_deg}°` : ""} (${source.split(",")[0]})`,

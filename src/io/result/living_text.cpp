@@ -22,7 +22,7 @@ std::string living_text(const RomResult& result) {
   std::string text;
   if (hips > 0)
     text += fmt::format("\"some\" is the limit less what soft tissue took in {} hips of cadavers; ", hips);
-  if (any_people) text += "\"people\" how far others turn, not this joint; ";
+  if (any_people) text += "means are of other people, not this joint; ";
   if (text.empty() && far_off.empty()) return text;
   text = "  living hips: " + text + "sources by --json\n";
   if (!far_off.empty()) text += "    usually ended by soft tissue before bone: " + far_off + "\n";
