@@ -85,7 +85,7 @@ def wrapped(text: str, longest_mm: float, points: float, bold: bool = False) -> 
 
 class Column(NamedTuple):
     """A column of a table. Numbers are centred, in a column as wide as they need; texts begin at the left and share what is left by these parts:
-    of the spare width if all have room in one line, else of the whole rest."""
+    of the spare width if all have room in one line; else the rest, by what they would need."""
 
     heading: str
     part: int = 0
@@ -176,12 +176,13 @@ class Paper:
         words = [[column.heading] if column.part else column.heading.split() or [""] for column in columns]
         needed = [max([width_mm(row[i].text, points, row[i].bold) for row in rows] + [width_mm(word, points, True) for word in words[i]]) + 2 * border + 1e-6
                   for i in range(len(columns))]
-        parts = sum(column.part for column in columns)
         spare = width - sum(needed)
+        parts = [float(column.part) for column in columns]
         if spare < 0:
+            parts = [min(need, width / 3) if column.part else 0.0 for need, column in zip(needed, columns)]
             needed = [0.0 if column.part else need for need, column in zip(needed, columns)]
             spare = width - sum(needed)
-        widths = [need + spare * column.part / parts for need, column in zip(needed, columns)]
+        widths = [need + spare * part / sum(parts) for need, part in zip(needed, parts)]
         lines = [[wrapped(cell.text, wide - 2 * border, points, cell.bold) for cell, wide in zip(row, widths)] for row in all_rows]
         heights = [max(map(len, of_row)) * each + border for of_row in lines]
 

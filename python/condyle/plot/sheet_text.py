@@ -278,7 +278,7 @@ def notes(case: Case) -> List[Note]:
         gap, people = ((limit.get("living") or {}).get(key) for key in ("gap", "people"))
         said = [(str(caveat.get("text", "")).rstrip("."), caveat.get("source")) for caveat in limit.get("caveats", [])]
         said += [(f"soft tissue ended it {gap['mean_deg']:g}° (SD {gap['sd_deg']:g}°) before bone did in {gap['hips']} hips of cadavers", gap["source"])] if gap else []
-        said += [(f"living hips are of {people['who']}", people["source"])] if people else []
+        said += [(f"living hips from {people['who']}", people["source"])] if people else []
         said += [("clinical range", case.rom.get("normal_range_source") if case.rom else None)] * (limit.get("normal_range_deg") is not None and not people)
         for text, source in said:
             usual.setdefault(f"{text}{f' ({source})' if source else ''}.", []).append(in_sentence(limit["name"]))

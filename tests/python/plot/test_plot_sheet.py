@@ -285,7 +285,7 @@ def test_a_motion_that_gains_nothing_ends_where_it_did_and_columns_say_whose_num
     said = texts_of(pages)
     assert "Internal rotation 102.6° 102.6° – impingement" in said and "FABER >120° (88–>120) – – no contact" in said and "Extension 72.7° 72.7° clinical 30" in said
     assert [text.get_color() for text in pages[0].texts if text.get_text() == "clinical 30"] == [figures.style.GREY]
-    assert "Extension: living hips are of clinical estimate (AAOS 1965)." in said
+    assert "Extension: living hips from clinical estimate (AAOS 1965)." in said
 
 
 def test_columns_are_those_that_a_plan_without_limits_and_limits_without_a_plan_have(tmp_path):
