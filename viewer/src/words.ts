@@ -53,7 +53,7 @@ export const words = {
   closeHelp: "Close",
   /// About sixty words, to fit on one card.
   helpText:
-    "The strip shows where motions end, with a 90 % band and the clinical range. Press a figure and the joint goes there. Drag the bones to turn " +
+    "The strip shows where motions end, with a 90 % band and what is known of living hips. Press a figure and the joint goes there. Drag the bones to turn " +
     "them, the sliders to move the joint: dark bars are free, pale ones blocked. Figures has the map and the clock face, Details the method " +
     "and files. Only bone is computed: soft tissue usually stops a hip earlier. Undo goes one step back.",
   keys: [

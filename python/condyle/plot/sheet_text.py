@@ -179,7 +179,8 @@ def _promise(target: Dict[str, Any]) -> str:
         reach = f"{lacks:.1f}° short of" if lacks >= CHANGED_DEG else "which is"
         share = f"5 to 95 % of displaced joints reach {band['p5_deg']:.0f} to {band['p95_deg']:.0f}°" if band else "in how many displaced joints was not computed"
         text = f"ends at {target['after']['limit_deg']:.1f}°, {reach} its target of {degrees_text(target['reach_deg'])}; {share}"
-    return f"After the cut: {text.replace(' deg', '°').replace('mm3', 'mm³')}."
+    said = text.replace(" deg", "°").replace("mm3", "mm³")
+    return f"{capitalised(said) if target.get('is_plan') is False else f'After the cut it {said}'}."
 
 
 def other_targets(case: Case, first: str) -> List[str]:

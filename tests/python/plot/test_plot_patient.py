@@ -42,7 +42,7 @@ def test_both_sides_have_figures_a_sheet_and_a_figure_together(tmp_path):
         "both.pdf", "left/sheet.pdf", "right/sheet.pdf"]
     for side in ("left", "right"):
         said = said_in((at / side / "sheet.pdf").read_bytes())
-        for words in (f"Case 17 · {side} hip", "2026-11-27", "cam on CT", "NOT DECIDED: 164 mm³ of femur", "After the cut: ends at 36.0°"):
+        for words in (f"Case 17 · {side} hip", "2026-11-27", "cam on CT", "NOT DECIDED: 164 mm³ of femur", "After the cut it ends at 36.0°"):
             assert words in said, words
 
 
@@ -116,4 +116,4 @@ def test_what_the_command_writes_is_drawn(tmp_path, command, coarse_hip_file):
     assert len(answers) == 2 and sorted(bar.get_width() for bar in ax.patches if bar.get_gid() == "limit") == turned
     for name, draw in sheets_of(tmp_path, {"case": "Case 17"}):
         said = texts_of(draw())
-        assert f"Case 17 · {name.split('/')[0]} hip" in said and "After the cut: " in said and "alpha at 1:30 " in said
+        assert f"Case 17 · {name.split('/')[0]} hip" in said and "After the cut it " in said and "alpha at 1:30 " in said

@@ -183,7 +183,7 @@ def test_every_limit_and_every_note_stands_in_it_as_text(pdf):
                   "AAOS 1965", "Condyle 9.8.7", "hip.toml abababab, hip_bone.ply cdcdcdcd, femur.ply efefefef",
                   "Motion 3 $x^2$: Soft tissue ends this motion before bone does (a study).", "Motion 3 $x^2$ †",
                   "200 joints displaced at random, standard deviations centre 0.5 mm, axes 1°.", "Planned with a margin of 0.5 mm.",
-                  "Motion 2 $x^2$: After the cut: ends at 34.2°, 21.2° short of its target of 55.5°; in how many displaced joints was not computed.",
+                  "Motion 2 $x^2$: After the cut it ends at 34.2°, 21.2° short of its target of 55.5°; in how many displaced joints was not computed.",
                   "5 to 95 % of displaced joints reach 31 to 48°.", "the strength of the remaining bone are not modelled.",
                   "Osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical device.", "2.7 mm at the deepest, at 2:31 of the neck's clock", "1:30–2:00 1.9, 2:00–2:30 2.7",
                   "head neck offset at 1:30 6.4 → 8.8 mm", "12:15 (2)"):
@@ -256,7 +256,7 @@ OTHER = {"centre": "socket", "before_deg": 15.0, "after_deg": 25.1, "is_decided"
     (36, {"confidence_reached": 0.5, "band": BAND, "other_centre": OTHER, "text": "36.0 deg about the head's centre, 25.1 about the socket's: not decided"}, {},
      "NOT DECIDED: 164 mm³ of femur removed may not be enough", "36.0° about the head's centre, 25.1 about the socket's: not decided."),
     (36, {"confidence_reached": 0.5, "band": BAND, "other_centre": OTHER, "is_plan": False, "text": "no plan"}, {},
-     "NO PLAN: 164 mm³ of femur removed may gain nothing", "no plan."),
+     "NO PLAN: 164 mm³ of femur removed may gain nothing", " No plan."),
     (36, {"confidence_reached": 0.15, "band": BAND, "text": "t"}, {}, "NOT DECIDED: 164", "t."),
     (30, {"confidence_reached": 0.5, "band": BAND, "text": "t"}, {}, "TARGET NOT REACHED: 164 mm³ of femur removed", "t."),
     (36, {"band": {**BAND, "median_deg": 33.0}}, {}, "NOT DECIDED: 164", "ends at 36.0°, which is its target of 36°; 5 to 95 % of displaced joints reach 27 to 44°."),
@@ -270,7 +270,7 @@ def test_a_plan_is_called_what_both_centres_and_displaced_joints_leave_of_it(tmp
     found = case(tmp_path, motion("flexion", 110), motion("fadir", 20), plan_of=answer)
     rows = sheet_text.rows_of(found)
     assert sheet_text.heading(found)[0].startswith(ribbon) and sheet_text.headline(found, rows) is rows[1]
-    assert sheet_text.verdict(found, rows)[0] == "FADIR ends at 20.0° (27–44), femur on hip bone." and sheet_text.verdict(found, rows)[1].endswith(promise)
+    assert sheet_text.verdict(found, rows)[0] == "FADIR ends at 20.0° (27–44), femur on hip bone." and f" {sheet_text.verdict(found, rows)[1]}".endswith(promise)
     assert [bool(end.band) for end in rows[1].ends] == [bool(target.get("band"))] * 2
 
 
@@ -396,8 +396,8 @@ def test_what_the_command_writes_is_on_the_sheet(tmp_path, command, coarse_hip_f
     for limit, changed in zip(rom["motions"], plan["limits"]):
         assert limit["name"] == changed["motion"] and figures.words.motion_name(limit["name"]) in said
         if limit["reason"] == "contact":
-            assert f"{limit['limit_deg']:.1f}°" in said and (not changed["gain_deg"] or f"{changed['after']['limit_deg']:.1f}°" in said)
+            assert f"{limit['limit_deg']:.1f}°" in said and (changed["gain_deg"] < 0.05 or f"{changed['after']['limit_deg']:.1f}°" in said)
     assert f"{plan['cuts'][0]['volume_mm3']:.1f} mm³ of femur" in said and f"{plan['cuts'][0]['deepest_mm']:.1f} mm at the deepest" in said
-    assert "After the cut: " in said and all(note.text in said for note in sheet_text.notes(found))
+    assert "After the cut it " in said and all(note.text in said for note in sheet_text.notes(found))
     assert "• Femoral version: the mesh ends above the knee" in said
     assert rom["provenance"]["mobile_mesh"]["sha256"][:8] in said and "alpha at 1:30 " in said and " (30–66)" in said
