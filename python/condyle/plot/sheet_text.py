@@ -20,9 +20,9 @@ CONTACTS = ("impingement", "contact")
 FREE = ("end_of_range", "translation_ends")
 """Ends at which nothing was met."""
 
-DECIDE = ("target_blocked", "band_not_reached", "neck_is_narrowed", "bones_touch", "cut_by_view", "flat_end", "limit_on_cut", "limit_on_part_cut", "limit_on_piece",
-          "head_socket_apart", "centre_moves_limits", "centre_off_head", "no_head", "low_coverage", "inverted_mesh", "open_mesh", "doubled_triangles",
-          "coarse_mesh", "bearing_is_swept", "burr_meets_kept", "narrow_bearing_margin", "alpha_stays", "more_than_must", "caveat")
+DECIDE = ("wrong_side", "swapped_bodies", "same_mesh", "units_disagree", "unlikely_size", "axes_turned", "axes_not_upright", "unlikely_joint", "target_blocked",
+          "band_not_reached", "neck_is_narrowed", "bones_touch", "cut_by_view", "flat_end", "limit_on_cut", "limit_on_part_cut", "limit_on_piece", "head_socket_apart", "centre_moves_limits", "centre_off_head", "no_head", "low_coverage", "inverted_mesh", "open_mesh", "doubled_triangles",
+          "self_crossings", "coarse_mesh", "bearing_is_swept", "burr_meets_kept", "narrow_bearing_margin", "alpha_stays", "more_than_must", "caveat")
 """Codes of notes that may change whether and how one cuts, the gravest first: at most five stand on the first page."""
 
 
@@ -163,13 +163,14 @@ def verdict(case: Case, rows: List[Row]) -> List[str]:
     short = f", {degrees_text(lacks)} short of {wanted}" if lacks >= CHANGED_DEG and not row.target else ""
     first = f"{name} ends at {value_text(row.now)}, {how}{short}."
     if row.now.end in FREE:
-        first = f"{name} is free to {degrees_text(row.now.turned_deg)}, where its range ends."
+        alone = "" if any(each.now.end not in FREE for each in rows) else "No contact ends any motion in its range. "
+        first = f"{alone}{name} is free to {degrees_text(row.now.turned_deg)}, where its range ends."
     if case.plan and row.target:
         return [first, _promise(row.target)]
     compared = ["its clinical range"] * any(each.now.normal_deg is not None for each in rows)
     compared += [f"the {bone['healthy_deg']:g}° of simulated healthy hips" for each in rows for bone in (each.limit.get("bone_reference"),)
                  if bone and each.now.turned_deg >= bone["healthy_deg"]]
-    return [first, f"No motion ends before {' or '.join(compared)}."] if compared and lacks < CHANGED_DEG else [first]
+    return [first, f"No motion ends before {' or '.join(compared)}."] if compared and lacks < CHANGED_DEG and row.now.end not in FREE else [first]
 
 
 def _promise(target: Dict[str, Any]) -> str:
