@@ -22,6 +22,8 @@ from .words import number, spaced
 GAP_MM, LAST_MM = 2.2, HEIGHT_MM - EDGE_MM - 5
 BIG, TEXT, SMALL = 12.0, 8.0, 7.0
 """Sizes of type in points; there is none smaller."""
+MOST_TARGETS = 3
+"""Sentences on targets beside that of the verdict; more stand behind the first page, whose table has all."""
 DPI = 180
 """Of pictures: at this one no picture, whatever it shows, adds more than 1.4 MB to the file."""
 
@@ -62,15 +64,19 @@ def sheet(inputs: Sequence[PathLike], *, case: str = "", date: str = "", note: s
 
 def _fill(paper: Paper, case: Case, heading: Tuple[str, str, str], pictures: List[Picture]) -> None:
     rows = sheet_text.rows_of(case)
-    first, rest = sheet_text.first_and_rest(sheet_text.notes(case))
-    upper, table, lower = _above(paper, case, rows, heading), _tables(paper, case, rows), _notes(paper, case, first)
+    upper, table, notes = _above(paper, case, rows, heading), _tables(paper, case, rows), sheet_text.notes(case)
     main = [each for each in pictures[:1] if each.width <= PICTURE_MM]
     wide = INNER_MM - PICTURE_MM - 4 if main else INNER_MM
     shown = main + ([bars(paper, rows, sheet_text.headline(case, rows), wide)] if rows else [])
     least = max((each.least for each in shown), default=0.0)
-    room = LAST_MM - EDGE_MM - upper.height - lower.height - 2 * GAP_MM
-    if room < least + sum(block.height for block in table[:4]):
-        raise UsageError("the names, the note and the notes of the case leave no room for its limits on the first page")
+    for count in range(5, -1, -1):
+        first, rest = sheet_text.first_and_rest(notes, count)
+        lower = _notes(paper, case, first)
+        room = LAST_MM - EDGE_MM - upper.height - lower.height - 2 * GAP_MM
+        if room >= least + sum(block.height for block in table[:4]):
+            break
+    else:
+        raise UsageError("the names and the note of the case leave no room for its limits on the first page")
     count = max(i for i in range(len(table) + 1) if sum(block.height for block in table[:i]) <= room - least)
     best = max((each.best for each in shown), default=0.0)
     height = min(best, room - sum(block.height for block in table[:count]))
@@ -102,8 +108,12 @@ def _above(paper: Paper, case: Case, rows: List[Row], heading: Tuple[str, str, s
     blocks += [nothing(1), paper.ribbon(text, EDGE_MM, INNER_MM, BIG, colour), nothing(1)]
     if rows:
         blocks += [paper.paragraph(" ".join(sheet_text.verdict(case, rows)), EDGE_MM, INNER_MM, BIG, bold=True), nothing(0.8)]
-    said = sheet_text.other_targets(case, sheet_text.headline(case, rows).now.name if rows else "") + ([sheet_text.sweep_line(case.sweep)] if case.sweep else [])
+    said = _other_targets(case, rows)[:MOST_TARGETS] + ([sheet_text.sweep_line(case.sweep)] if case.sweep else [])
     return stacked([*blocks, *(paper.paragraph(each, EDGE_MM, INNER_MM, 9) for each in said), nothing(GAP_MM)])
+
+
+def _other_targets(case: Case, rows: List[Row]) -> List[str]:
+    return sheet_text.other_targets(case, sheet_text.headline(case, rows).now.name if rows else "")
 
 
 def _notes(paper: Paper, case: Case, first: List[Note]) -> Block:
@@ -120,7 +130,7 @@ def _rest(paper: Paper, case: Case, rows: List[Row], table: List[Block], picture
             top = EDGE_MM
         _draw(paper, picture, EDGE_MM, top, picture.width, picture.best)
         top += picture.best + GAP_MM
-    said = [each for each in (sheet_text.shape(case), sheet_text.how_sure(case, rows)) if each]
+    said = _other_targets(case, rows)[MOST_TARGETS:] + [each for each in (sheet_text.shape(case), sheet_text.how_sure(case, rows)) if each]
     blocks = [block for each in said for block in (*paper.lines(each, EDGE_MM, INNER_MM, TEXT), nothing(1.5))]
     blocks += [paper.paragraph("Notes", EDGE_MM, INNER_MM, 9, bold=True)] * bool(notes)
     blocks += [line for note in notes for line in paper.lines(f"• {note.text}", EDGE_MM, INNER_MM, TEXT)]

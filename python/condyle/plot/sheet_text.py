@@ -287,9 +287,9 @@ def notes(case: Case) -> List[Note]:
     return list(found.values()) + [Note(f"{capitalised(', '.join(of))}: {text}", len(DECIDE)) for text, of in usual.items()]
 
 
-def first_and_rest(said: List[Note]) -> Tuple[List[Note], List[Note]]:
-    """At most five notes that may change a decision, the gravest first, and all others."""
-    first = sorted((note for note in said if note.grave < len(DECIDE)), key=lambda note: note.grave)[:5]
+def first_and_rest(said: List[Note], most: int) -> Tuple[List[Note], List[Note]]:
+    """At most so many notes that may change a decision, the gravest first, and all others."""
+    first = sorted((note for note in said if note.grave < len(DECIDE)), key=lambda note: note.grave)[:most]
     return first, [note for note in said if note not in first]
 
 
