@@ -134,7 +134,7 @@ def heading(case: Case) -> Tuple[str, str]:
     for words, is_so in zip(said, max((_doubts(case.plan, target) for target in case.plan["targets"]), default=())):
         if is_so:
             return words.format(cuts or "no bone"), style.VERMILION
-    return (f"PLANNED: {cuts} removed", "#00704f") if cuts else ("PLANNED: no bone has to go", "#555555")
+    return (f"PLANNED: {cuts} removed", "#00704f") if cuts else ("NOTHING TO REMOVE: targets are reached as it is", "#555555")
 
 
 def _cuts(plan: Dict[str, Any]) -> str:
@@ -166,29 +166,29 @@ def verdict(case: Case, rows: List[Row]) -> List[str]:
         alone = "" if any(each.now.end not in FREE for each in rows) else "No contact ends any motion in its range. "
         first = f"{alone}{name} is free to {degrees_text(row.now.turned_deg)}, where its range ends."
     if case.plan and row.target:
-        return [first, _promise(row.target)]
+        return [first, _promise(case.plan, row.target)]
     compared = ["its clinical range"] * any(each.now.normal_deg is not None for each in rows)
     compared += [f"the {bone['healthy_deg']:g}° of simulated healthy hips" for each in rows for bone in (each.limit.get("bone_reference"),)
                  if bone and each.now.turned_deg >= bone["healthy_deg"]]
     return [first, f"No motion ends before {' or '.join(compared)}."] if compared and lacks < CHANGED_DEG and row.now.end not in FREE else [first]
 
 
-def _promise(target: Dict[str, Any]) -> str:
+def _promise(plan: Dict[str, Any], target: Dict[str, Any]) -> str:
     """How far the plan goes, in how many displaced joints, and about which centre, in the words of every shell; of files of earlier versions what they have."""
     lacks, band, text = target["reach_deg"] - target["after"]["limit_deg"], target["band"], target.get("text")
     if not text:
-        reach = f"{lacks:.1f}° short of" if lacks >= CHANGED_DEG else "which is"
+        reach = f"{lacks:.1f}° short of" if lacks >= CHANGED_DEG else "which reaches"
         share = f"5 to 95 % of displaced joints reach {band['p5_deg']:.0f} to {band['p95_deg']:.0f}°" if band else "in how many displaced joints was not computed"
         text = f"ends at {target['after']['limit_deg']:.1f}°, {reach} its target of {degrees_text(target['reach_deg'])}; {share}"
-    said = text.replace(" deg", "°").replace("mm3", "mm³")
-    return f"{capitalised(said) if target.get('is_plan') is False else f'After the cut it {said}'}."
+    begin, said = "After the cut" if _cuts(plan) else "As it is", text.replace(" deg", "°").replace("mm3", "mm³")
+    return f"{capitalised(said) if target.get('is_plan') is False else f'{begin} it {said}'}."
 
 
 def other_targets(case: Case, first: str) -> List[str]:
     """What the plan gives of all targets but the first, and its margin."""
     if case.plan is None:
         return []
-    said = [f"{motion_name(target['motion'])}: {_promise(target)}" for target in case.plan["targets"] if target["motion"] != first]
+    said = [f"{motion_name(target['motion'])}: {_promise(case.plan, target)}" for target in case.plan["targets"] if target["motion"] != first]
     return said + [f"Planned with a margin of {number(round(case.plan['margin_mm'], 2))} mm."] * (case.plan["margin_mm"] > 0)
 
 

@@ -259,10 +259,10 @@ OTHER = {"centre": "socket", "before_deg": 15.0, "after_deg": 25.1, "is_decided"
      "NO PLAN: 164 mm³ of femur removed may gain nothing", " No plan."),
     (36, {"confidence_reached": 0.15, "band": BAND, "text": "t"}, {}, "NOT DECIDED: 164", "t."),
     (30, {"confidence_reached": 0.5, "band": BAND, "text": "t"}, {}, "TARGET NOT REACHED: 164 mm³ of femur removed", "t."),
-    (36, {"band": {**BAND, "median_deg": 33.0}}, {}, "NOT DECIDED: 164", "ends at 36.0°, which is its target of 36°; 5 to 95 % of displaced joints reach 27 to 44°."),
+    (36, {"band": {**BAND, "median_deg": 33.0}}, {}, "NOT DECIDED: 164", "ends at 36.0°, which reaches its target of 36°; 5 to 95 % of displaced joints reach 27 to 44°."),
     (36, {"band": BAND}, {}, "PLANNED: 164", "5 to 95 % of displaced joints reach 27 to 44°."),
-    (36, {}, {}, "NOT DECIDED: 164", "ends at 36.0°, which is its target of 36°; in how many displaced joints was not computed."),
-    (36, {}, {"cuts": []}, "PLANNED: no bone has to go", "in how many displaced joints was not computed.")])
+    (36, {}, {}, "NOT DECIDED: 164", "ends at 36.0°, which reaches its target of 36°; in how many displaced joints was not computed."),
+    (36, {}, {"cuts": []}, "NOTHING TO REMOVE: targets are reached as it is", "in how many displaced joints was not computed.")])
 def test_a_plan_is_called_what_both_centres_and_displaced_joints_leave_of_it(tmp_path, after, target, more, ribbon, promise):
     """Files of earlier versions lack keys."""
     answer = plan(BEFORE, ("fadir", 20.0, after), targets={"fadir": 36}, confidence=0.5, **more)
@@ -291,7 +291,7 @@ def test_a_motion_that_gains_nothing_ends_where_it_did_and_columns_say_whose_num
 def test_columns_are_those_that_a_plan_without_limits_and_limits_without_a_plan_have(tmp_path):
     answer = plan(BEFORE, AFTER, targets={"fadir": 36}, cuts=[], depth_by_half_hour_mm=None)
     said = texts_of(figures.sheet([folder(tmp_path, resection=answer) / "resection.json"]))
-    assert "PLANNED: no bone has to go" in said and "FADIR 20.0° 36° 36.0° contact" in said and "left side · a hip" in said
+    assert "NOTHING TO REMOVE: targets are reached as it is" in said and "FADIR 20.0° 36° 36.0° contact" in said and "left side · a hip" in said
     said = texts_of(figures.sheet([folder(tmp_path, rom=rom(motion("flexion", 110, clock_hour=2), motion("extension", 20))) / "rom.json"]))
     assert "PLANNED" not in said and "No band: condyle rom --band" in said
     assert "motion now ended by (socket's clock) 1 Flexion 110.0° impingement, 2:00 2 Extension 20.0° impingement, away from the rim" in said
