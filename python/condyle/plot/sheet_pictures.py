@@ -116,7 +116,7 @@ def bars(paper: Paper, rows: Sequence[Row], spoken_of: Row, width: float) -> Pic
     drawn = sum(BAR_MM * (len(row.ends) + 1.3) for row in shown)
 
     def draw(left: float, top: float, width: float, height: float) -> None:
-        ax = paper.axes(left + 35, top, width - 36, drawn)
+        ax = paper.axes(left + 38, top, width - 39, drawn)
         ax.set_axis_off()
         ax.set_ylim(drawn, 0)
         reached = [target.get("reach_deg", 0.0) for target in targets] + [degrees for row in shown for end in row.ends for degrees in (end.turned_deg, *(end.band or ())[2:3])]
