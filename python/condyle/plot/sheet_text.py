@@ -178,8 +178,9 @@ def _promise(plan: Dict[str, Any], target: Dict[str, Any]) -> str:
     lacks, band, text = target["reach_deg"] - target["after"]["limit_deg"], target["band"], target.get("text")
     if not text:
         reach = f"{lacks:.1f}° short of" if lacks >= CHANGED_DEG else "which reaches"
-        share = f"5 to 95 % of displaced joints reach {band['p5_deg']:.0f} to {band['p95_deg']:.0f}°" if band else "in how many displaced joints was not computed"
-        text = f"ends at {target['after']['limit_deg']:.1f}°, {reach} its target of {degrees_text(target['reach_deg'])}; {share}"
+        text = f"ends at {target['after']['limit_deg']:.1f}°, {reach} its target of {degrees_text(target['reach_deg'])}"
+        text += f"; 5 to 95 % of displaced joints reach {band['p5_deg']:.0f} to {band['p95_deg']:.0f}°" if band else ""
+    text += "; in how many displaced joints was not computed" * (band is None)
     begin, said = "After the cut" if _cuts(plan) else "As it is", text.replace(" deg", "°").replace("mm3", "mm³")
     return f"{capitalised(said) if target.get('is_plan') is False else f'{begin} it {said}'}."
 
