@@ -109,14 +109,13 @@ void propose_from_model(const InitArguments& options) {
   const io::ModelJointProposal proposed = io::propose_joint(model, request);
   for (const io::ModelNote& of_model : proposed.notes) note(io::to_text(of_model));
   note_to_fill_in(proposed.proposal);
-  if (options.out.empty()) {
-    print(proposed.proposal.toml);
-  } else {
-    io::write_output_file(options.out, proposed.proposal.toml);
-    note("wrote " + options.out);
-  }
-  for (const std::string& missing : {proposed.missing_body, proposed.unreadable})
-    if (!missing.empty()) throw FileError(missing);
+  // What cannot be loaded as it stands is printed and no file, which would be in the way of the next proposal.
+  const std::string unusable = proposed.missing_body + proposed.unreadable;
+  if (options.out.empty()) print(proposed.proposal.toml);
+  if (!unusable.empty()) throw FileError(unusable);
+  if (options.out.empty()) return;
+  io::write_output_file(options.out, proposed.proposal.toml);
+  note("wrote " + options.out);
 }
 
 void init_command(const InitArguments& options, const CLI::App& command) {

@@ -69,8 +69,9 @@ void study_command(const StudyArguments& given) {
   io::Study study{given.table, given.out, study_options(given), {}, given.bad_joint, given.crate_date};
   if (!given.shard.empty()) study.shard = io::Shard::parse(given.shard);
   const io::StudyDone done =
-      with_progress([&](const Control& control) { return io::run_study(study, control); }, Writes::files);
+      with_progress([&](const Control& control) { return io::run_study(study, control); }, Writes::parts);
   for (const io::NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
+  if (done.earlier > 0) note(fmt::format("{} joints were answered by an earlier run", done.earlier));
   if (done.was_there) note("is there already, of the same inputs, options and version");
   if (!done.written.empty()) say_written(done.written);
   print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));

@@ -28,6 +28,9 @@ constexpr auto patience = 500ms;
 /// The stage that work is in, and how far it is. The work's threads write it, and the one that watches for signals reads it.
 class Stage {
  public:
+  explicit Stage(Writes writes)
+      : kept_(writes == Writes::parts ? "the same command goes on from here" : "nothing is written") {}
+
   void update(std::string_view name, std::size_t done, std::size_t total) {
     const std::scoped_lock lock(mutex_);
     if (!progress_ || name_ != name) progress_.emplace(name_ = name);
@@ -39,14 +42,14 @@ class Stage {
   std::string interrupted() {
     const std::scoped_lock lock(mutex_);
     progress_.reset();
-    if (name_.empty()) return "interrupted; nothing is written";
-    return fmt::format("interrupted after {} of {} {}; nothing is written", done_, total_, name_);
+    if (name_.empty()) return "interrupted; " + kept_;
+    return fmt::format("interrupted after {} of {} {}; {}", done_, total_, name_, kept_);
   }
 
  private:
   std::mutex mutex_;
   std::optional<Progress> progress_;
-  std::string name_;
+  std::string name_, kept_;
   std::size_t done_ = 0, total_ = 0;
 };
 
@@ -55,7 +58,7 @@ class Stage {
 void run_with_progress(const std::function<bool(const Control&)>& work, Writes writes) {
   const InterruptWatch watch;
   std::stop_source stop;
-  Stage stage;
+  Stage stage(writes);
   const std::jthread watcher([&](const std::stop_token& ended) {
     std::mutex mutex;
     std::condition_variable_any polls;

@@ -10,8 +10,9 @@
 
 namespace condyle::cli {
 
-/// Whether work writes its own files, at its end and whole or not at all: once they are there, a signal comes too late.
-enum class Writes { nothing, files };
+/// Whether work writes its own files, at its end and whole or not at all: once they are there, a signal comes too late. `parts` are
+/// files of which what is done is kept, and the same run goes on from there.
+enum class Writes { nothing, files, parts };
 
 /// Runs `work`, which answers whether it was completed, with a control that shows progress. SIGINT or SIGTERM stops it, and throws
 /// Interrupted; work whose steps take longer than anybody waits is left: a second after the signal the process has ended with exit code

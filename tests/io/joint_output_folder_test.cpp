@@ -84,6 +84,21 @@ TEST(OutputFolder, WhatAnEarlierRunOfTheCommandLeftGoesWithTheCommitAndNothingEl
   EXPECT_TRUE(fs::exists(folder / "folder.txt"));
 }
 
+TEST(OutputFolder, OfAnotherCommandsAnswerIsRefusedAndItsOwnIsNot) {
+  const TemporaryFolder folder;
+  folder.file("limits.csv", "of a plan");
+  folder.file("resection.json", "{}");
+  const auto opens = [&](std::string_view document) {
+    io::OutputFolder(folder.path(),
+                     [=](std::string_view name) { return name == document || name == "limits.csv"; });
+  };
+  EXPECT_THROW(opens("rom.json"), FileError);
+  EXPECT_NO_THROW(opens("resection.json"));
+  EXPECT_NO_THROW(io::OutputFolder(folder.path(), is_text)) << "nothing of the same name";
+  folder.file("rom.json", "{}");
+  EXPECT_NO_THROW(opens("rom.json"));
+}
+
 // Where the document that every run writes is missing no run was.
 TEST(OutputFolder, WithoutItsDocumentFilesAreSomebodysOwn) {
   const TemporaryFolder folder;

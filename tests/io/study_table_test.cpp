@@ -8,6 +8,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/study.hpp"
 #include "io/result/sample_files.hpp"
+#include "io/study/study_joint.hpp"
 #include "study_of_arms.hpp"
 
 /// Contents that a study's table may have, and those that are refused.
@@ -52,6 +53,11 @@ TEST(StudyTable, IsRefusedWithTheLineThatIsWrong) {
   expect("id,sample,Alpha_Angle_degrees\na,1,60\n", "did you mean 'alpha_angle_deg'?");
   expect("id,sample,neck_length_cm\na,1,5\n", "did you mean 'neck_length_mm'?");
   expect("id,joint,pelvic_tilt\na,b,5\n", "did you mean 'pelvic_tilt_deg'?");
+  for (const char* age : {"Age", "age_yr", "age_months"})
+    expect(fmt::format("id,joint,{}\na,b,5\n", age), "did you mean 'age_years'?");
+  for (const char* sex : {"Sex", "gender"})
+    expect(fmt::format("id,joint,{}\na,b,F\n", sex), "did you mean 'sex'?");
+  expect("id,joint,age,age_years\na,b,5,5\n", "columns 'age' and 'age_years' are one");
   expect("id,fixed,mobile,side,unit\na,b,c,left,m\n", "did you mean 'units'?");
   expect("id,fixed,mobile,side,axis\na,b,c,left,LPS\n", "did you mean 'axes'?");
   expect("id,fixed,moblie,side\na,b,c,left\n", "did you mean 'mobile'?");
@@ -66,6 +72,23 @@ TEST(StudyTable, CarriesColumnsThatAreNearlyCalledAsOnesThatItHasOrDoesNotNeed) 
   io::run_study({table, folder / "out"});
   const auto failure = rows_of(folder / "out/failures.csv").at(0);
   for (const char* column : {"site", "haed_radius_mm", "unit", "age"}) EXPECT_TRUE(failure.contains(column));
+}
+
+TEST(StudyTable, SaysWhoseJointsTheyAre) {
+  const TemporaryFolder folder;
+  const SmallCohort cohort(folder.path(), 1);
+  const io::StudyTable table = io::read_study_table(
+      folder.file("whose.csv",
+                  "id,joint,age,sex\na,hip1.toml,7,F\nb,hip1.toml,,male\nc,hip1.toml,,girl\n"
+                  "d,hip1.toml,old,\ne,hip1.toml,121,\n"));
+  const auto person = [&](std::size_t row) {
+    return io::load_joint(table, table.rows.at(row)).loaded.joint.person;
+  };
+  EXPECT_EQ(person(0).age_years, 7);
+  EXPECT_EQ(person(0).sex, Sex::female);
+  EXPECT_EQ(person(1).sex, Sex::male);
+  for (const std::size_t bad : {2u, 3u, 4u}) EXPECT_THROW(person(bad), FileError) << bad;
+  EXPECT_EQ(table.carried.size(), 2u) << "they are covariates too";
 }
 
 TEST(StudyTable, TakesAByteOrderMarkCommentsAndLineEndsOfWindows) {

@@ -114,6 +114,7 @@ struct StudyDone {
   bool was_there = false;                          ///< with the same key, and nothing was done
   std::vector<std::filesystem::path> written = {};
   std::vector<NotedJoint> noted = {};  ///< of those answered, in the order of the table
+  std::size_t earlier = 0;             ///< rows whose answers a run that was broken off had left
 };
 
 /// Answers for every row of the table, on all threads, and writes limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and
@@ -122,7 +123,8 @@ struct StudyDone {
 /// folder at a time.
 ///
 /// Throws FileError for a table that cannot be read and a folder that cannot be written; UsageError for options that do not
-/// fit a joint, a date that is none, or one of a shard. Memory: some kB a row, and the joints at work, one per thread. Empty if it was stopped: nothing is written.
+/// fit a joint, a date that is none, or one of a shard. Memory: some kB a row, and the joints at work, one per thread. Empty if it was stopped: no table is written.
+/// Rows answered until a run is stopped, fails or is killed are kept in the folder, and taken by the next run if rows, files, options and version are the same.
 [[nodiscard]] std::optional<StudyDone> run_study(const Study& study, const Control& control = {});
 
 /// Throws if no joint was answered, which is no result: the error of the first failure, naming `table`.

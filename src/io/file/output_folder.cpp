@@ -38,6 +38,26 @@ std::vector<fs::path> files_of_command(const fs::path& folder, const OutputFolde
   return files;
 }
 
+/// Throws FileError if one of these files belongs to the answer of another command: that has a document there, and this one has none.
+void check_are_of_no_other_answer(const std::vector<fs::path>& there,
+                                  const OutputFolder::OfCommand& of_command) {
+  if (there.empty()) return;
+  constexpr std::string_view documents[] = {"depth.json",  "implant.json",   "load.json", "measures.json",
+                                            "motion.json", "resection.json", "rom.json",  "study.json",
+                                            "sweep.json",  "touch.json"};
+  const fs::path folder = there.front().parent_path();
+  std::string_view other;
+  for (const std::string_view name : documents) {
+    std::error_code ignored;
+    if (!fs::exists(folder / name, ignored)) continue;
+    if (of_command(name)) return;
+    other = name;
+  }
+  if (!other.empty())
+    throw FileError(fmt::format("{}: is there beside {}, the answer of another command: name another folder",
+                                there.front().string(), other));
+}
+
 void check_is_replaceable(const fs::path& path) {
   const NameTaken taken = io::what_has_the_name(path);
   if (taken == NameTaken::written_into || taken == NameTaken::refused)
@@ -67,6 +87,7 @@ OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command, std::sp
       document_(std::move(document)) {
   const std::vector<fs::path> there = files_of_command(folder_, of_command_);
   io::check_replaces_none(there, read);
+  check_are_of_no_other_answer(there, of_command_);
   for (const fs::path& file : there) check_is_replaceable(file);
   aside_ = std::make_unique<TemporaryFolder>(folder_);
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "io/file/replaced_files.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/result/crate.hpp"
+#include "io/study/answered_rows.hpp"
 #include "io/study/json_digest.hpp"
 #include "io/study/study_answer.hpp"
 #include "io/study/study_files.hpp"
@@ -63,11 +65,12 @@ std::string key_of(const StudyRecord& record, const std::string& columns, Rows r
 /// The answers of all rows, as they come about.
 class Answers {
  public:
-  Answers(const Study& study, const StudyTable& table, Rows rows, const Control& control)
+  Answers(const Study& study, const StudyTable& table, Rows rows, const Control& control, AnsweredRows& kept)
       : study_(study),
         table_(table),
         rows_(rows),
         control_(control),
+        kept_(kept),
         answers_(rows.size()),
         errors_(rows.size()) {}
 
@@ -87,6 +90,10 @@ class Answers {
       was_stopped_ = true;
       return;
     }
+    if (const auto& earlier = kept_.earlier()[i]) {
+      answers_[i] = *earlier;
+      return report();
+    }
     const InputRecorder read;
     try {
       auto answer = io::answer_of(table_, rows_[i], study_, read, control_.stop);
@@ -99,6 +106,12 @@ class Answers {
     }
     // Even if an answer came about: it may be that of a file which seemed not to be there.
     if (const auto why = read.passing_failure()) end_with(i, std::make_exception_ptr(FileError(*why)));
+    if (errors_[i] || (answers_[i].hip + answers_[i].failure).empty()) return;
+    kept_.add(rows_[i], answers_[i]);
+    report();
+  }
+
+  void report() {
     const std::lock_guard lock(mutex_);
     if (control_.progress) control_.progress("joints", ++done_, rows_.size());
   }
@@ -133,6 +146,7 @@ class Answers {
   const StudyTable& table_;
   Rows rows_;
   const Control& control_;
+  AnsweredRows& kept_;
   std::vector<StudyAnswer> answers_;
   std::vector<std::exception_ptr> errors_;
   std::atomic<bool> was_stopped_ = false;
@@ -256,7 +270,11 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   const bool all_well = done && done->failures == 0 && done->noted.empty();
   if (all_well || (done && study.bad_joint == BadJoint::is_a_row)) return done;
 
-  auto answers = Answers(study, table, rows, control).all();
+  // Messages name the table, and what ends one run is a row of another.
+  AnsweredRows kept(folder, table.path, rows,
+                    io::sha256_of({results.record.version, results.record.options, results.columns,
+                                   table.path.string(), study.bad_joint == BadJoint::is_a_row}));
+  auto answers = Answers(study, table, rows, control, kept).all();
   if (!answers) return std::nullopt;
   std::vector<std::vector<Input>> inputs;
   for (StudyAnswer& answer : *answers) {
@@ -268,12 +286,16 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   results.record.joints = rows.size() - results.record.failures;
   results.record.key = key_of(results.record, results.columns, rows, results.record.inputs);
   results.texts = texts_of(*answers, columns);
-  return StudyDone{results.record.joints,
-                   results.record.failures,
-                   io::first_failure(results),
-                   false,
-                   io::write_study(folder, results, study.crate_date),
-                   io::noted_joints(results)};
+  StudyDone written{results.record.joints,
+                    results.record.failures,
+                    io::first_failure(results),
+                    false,
+                    io::write_study(folder, results, study.crate_date),
+                    io::noted_joints(results),
+                    static_cast<std::size_t>(std::ranges::count_if(
+                        kept.earlier(), [](const auto& earlier) { return earlier.has_value(); }))};
+  kept.remove();
+  return written;
 }
 
 }  // namespace condyle::io

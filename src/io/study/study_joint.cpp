@@ -97,6 +97,21 @@ double measure_in(const StudyTable& table, const StudyRow& row, std::string_view
   return value;
 }
 
+/// What the row says of whose joint it is.
+void set_person(Person& person, const StudyTable& table, const StudyRow& row) {
+  for (const std::string_view column : {"age", "age_years"})
+    if (const std::string_view age = table.field(row, column); !age.empty()) {
+      person.age_years = measure_in(table, row, column);
+      if (!is_age(*person.age_years))
+        throw FileError(
+            fmt::format("{}: {} is none of 0 to 120 years", table.place(row, column), in_quotes(age)));
+    }
+  static constexpr std::pair<std::string_view, Sex> sexes[] = {{"female", Sex::female}, {"male", Sex::male},
+                                                               {"f", Sex::female},      {"m", Sex::male},
+                                                               {"F", Sex::female},      {"M", Sex::male}};
+  if (!table.field(row, "sex").empty()) person.sex = one_of(table, row, "sex", sexes);
+}
+
 LoadedJoint made(const StudyTable& table, const StudyRow& row) {
   static constexpr std::pair<std::string_view, sample::Scenario> scenarios[] = {
       {"1", sample::Scenario::one},
@@ -217,13 +232,7 @@ StudyJoint joint_as_described(const StudyTable& table, const StudyRow& row) {
 
 StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
   StudyJoint joint = joint_as_described(table, row);
-  if (const std::string_view age = table.field(row, "age_years"); !age.empty()) {
-    const double years = measure_in(table, row, "age_years");
-    if (!is_age(years))
-      throw FileError(
-          fmt::format("{}: {} is none of 0 to 120 years", table.place(row, "age_years"), in_quotes(age)));
-    joint.loaded.joint.person.age_years = years;
-  }
+  set_person(joint.loaded.joint.person, table, row);
   const std::string_view values = table.field(row, "parameters");
   if (values.empty()) return joint;
   try {

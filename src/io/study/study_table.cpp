@@ -50,14 +50,15 @@ std::vector<std::string> missing_columns(const StudyTable& table) {
     for (const sample::HipMeasure& measure : sample::hip_measures()) add({measure.name});
   if (!of_samples && !of_meshes && !of_labels && !of_models)
     add({"joint", "fixed", "mobile", "labels", "opensim_model", "sample"});
-  add({"pelvic_tilt_deg", "age_years"});
+  add({"pelvic_tilt_deg"});
+  if (!has("age")) add({"age_years"});
   return names;
 }
 
 /// "alpha_angle" of "alpha_angle_deg", "alpha_angle_degrees" and "alpha_angle": the name without the unit at its end.
 std::string without_unit(std::string name) {
-  constexpr std::string_view units[] = {"_deg",     "_degree", "_degrees", "_rad",
-                                        "_radians", "_mm",     "_cm",      "_m"};
+  constexpr std::string_view units[] = {"_deg", "_degree", "_degrees", "_rad", "_radians", "_mm",    "_cm",
+                                        "_m",   "_years",  "_year",    "_yrs", "_yr",      "_months"};
   for (const std::string_view unit : units)
     if (name.ends_with(unit)) return name.substr(0, name.size() - unit.size());
   return name;
@@ -65,6 +66,8 @@ std::string without_unit(std::string name) {
 
 /// The column that a name is meant for: a letter or two beside it, or with another unit or none. Empty if there is none.
 std::string meant_for(const std::string& lower, const std::vector<std::string>& missing) {
+  // Names as short as "age" are near to too many others.
+  if (lower == "sex" || lower == "gender") return "sex";
   if (std::string near = core::near_name(lower, missing); !near.empty()) return near;
   const auto same = std::find_if(missing.begin(), missing.end(), [&](const std::string& name) {
     return without_unit(name) != name && without_unit(name) == without_unit(lower);
@@ -76,7 +79,8 @@ std::string meant_for(const std::string& lower, const std::vector<std::string>& 
 void check_spelling(const StudyTable& table, std::size_t line, const Source& source) {
   const std::vector<std::string> missing = missing_columns(table);
   for (const std::string& name : table.columns) {
-    if (is_source(name) || sample::hip_measure_named(name) || name == "pelvic_tilt_deg") continue;
+    if (is_source(name) || sample::hip_measure_named(name) || name == "pelvic_tilt_deg" || name == "sex")
+      continue;
     std::string lower = name;
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -115,6 +119,8 @@ void check_columns(const StudyTable& table, std::size_t line, const Source& sour
       fail(fmt::format("column {} is there twice", in_quotes(name)));
   }
   if (!known.contains("id")) fail("there is no column 'id'");
+  if (known.contains("age") && known.contains("age_years"))
+    fail("columns 'age' and 'age_years' are one: leave one out");
   check_spelling(table, line, source);
 }
 
