@@ -207,6 +207,10 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
   io::Provenance from = io::provenance_of(loaded, words_of(command));
   AnsweredHip hip{std::move(loaded), {}, std::move(from)};
   hip.notes = noted(hip.loaded, Strictness::notes, whose);
+  if (const LengthUnit units = hip.loaded.report.file.joint.units;
+      !options.units && units != LengthUnit::millimetres)
+    note(fmt::format("{}meshes are taken to be in {}, by sizes of human bones: --units mm says otherwise",
+                     whose, plural_of(units)));
   io::ReportRequest request{.range = range_request_of(options.range, hip.loaded, Case(hip.loaded).motions()),
                             .with_measures = true};
   std::optional<ResectionRequest> plan;

@@ -101,7 +101,7 @@ SizeNotes size_notes(const Joint& joint, const std::optional<SphericalPatch>& he
     found.notes.push_back(
         {JointNoteCode::unlikely_size,
          body->name +
-             formatted(" is %.4g mm across in the units stated, and no bone %sis", size,
+             formatted(" is %.4g mm across in the units stated, and no human bone %sis", size,
                        size < shortest_bone || size > longest_bone ? "" : "of such a joint ") +
              likely_unit_text(size, body == &joint.mobile ? radius : std::nullopt)});
   }

@@ -150,7 +150,7 @@ void check_rounding(const JointDescription& description, const Pose& X_WF) {
 /// A fit may fail because the units are wrong: then no bone has the size that the mesh has in mm.
 std::string size_hint(const TriMesh& mesh_in_mm) {
   if (likely_unit(mesh_in_mm).unit == LengthUnit::millimetres) return "";
-  return formatted("; in the units stated it is %.4g mm across, and no bone is: are the units right?",
+  return formatted("; in the units stated it is %.4g mm across, and no human bone is: are the units right?",
                    mesh::bounds_of_surface(mesh_in_mm).diagonal());
 }
 

@@ -283,7 +283,8 @@ LikelyUnit likely_unit_of_size(double diagonal) {
   if (diagonal >= shortest_mm / mm_per_m && diagonal <= longest_mm / mm_per_m) {
     return {LengthUnit::metres, size + ": a bone in metres"};
   }
-  return {std::nullopt, size + ": no bone in millimetres (20 to 1000) nor in metres (0.02 to 1)"};
+  return {std::nullopt,
+          size + ": no human bone in millimetres (20 to 1000) nor in metres (0.02 to 1), an animal's may be"};
 }
 
 }  // namespace

@@ -102,6 +102,19 @@ TEST_F(Patients, OfMeshesHaveAPlanToo) {
   EXPECT_TRUE(ran.out.substr(limits.size()).starts_with("  right: planned: without ")) << ran.out;
 }
 
+TEST_F(Patients, OfMeshesInAnotherUnitAreAnsweredWithANoteOnIt) {
+  for (const char* name : {"hip_bone", "femur"}) {
+    TriMesh mesh = io::read_mesh(scan->path() / (std::string(name) + ".ply")).mesh;
+    for (std::vector<double>* row : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z})
+      for (double& value : *row) value /= 10;
+    io::write_mesh(scan->path() / (std::string(name) + "_cm.ply"), mesh);
+  }
+  const std::string command = "hip hip_bone_cm.ply femur_cm.ply --side right --samples 0 --out ",
+                    said = "meshes are taken to be in centimetres, ";
+  EXPECT_NE(run(command + "inferred").err.find(said), std::string::npos);
+  EXPECT_EQ(run(command + "stated --units cm").err.find(said), std::string::npos);
+}
+
 /// A mesh of both hip bones is the half at the femur, of each.
 TEST_F(Patients, HaveOneMeshOfBothHipBones) {
   const auto mirrored = [&](const char* file) {

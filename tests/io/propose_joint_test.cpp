@@ -125,6 +125,15 @@ TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
     EXPECT_NEAR(found[i].end.turned.degrees(), by_hand[i].end.turned.degrees(), 0.1) << found[i].motion.name;
 }
 
+TEST_P(ProposedHip, OfNoSizeOfHumanBonesNamesTheOptionThatSaysTheUnit) {
+  for (const double scale : {0.02, 2.5})
+    EXPECT_NE(proposed(Axes::joint, scale)
+                  .to_fill_in.at(0)
+                  .find("units: the sizes of the meshes do not speak for "
+                        "one unit of human bones: --units mm"),
+              std::string::npos);
+}
+
 TEST_P(ProposedHip, InCentimetresOrInchesNamesThatUnit) {
   const auto in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
   for (const auto& [word, mm] : {std::pair{"cm", 10.0}, std::pair{"in", 25.4}}) {

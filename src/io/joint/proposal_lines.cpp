@@ -53,7 +53,8 @@ void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& un
     lines.key("units", fmt::format("\"{}\"", name_of(units->value)), units->by);
   else
     lines.missing("units", "\"mm\", \"cm\", \"in\" or \"m\"",
-                  "the sizes of the meshes do not speak for one unit");
+                  "the sizes of the meshes do not speak for one unit of human bones: --units mm, cm, in or m "
+                  "says which");
 }
 
 void add_image(ProposalLines& lines, std::string_view role, const std::optional<BodyImage>& image) {
