@@ -19,8 +19,8 @@ from .sheet_pictures import EDGE_MM, INNER_MM, PICTURE_MM, TITLE_MM, Picture, ba
 from .sheet_text import Note, Row
 from .words import number, spaced
 
-GAP_MM, LAST_MM = 2.2, HEIGHT_MM - EDGE_MM - 5
-BIG, TEXT, SMALL = 12.0, 8.0, 7.0
+GAP_MM, LAST_MM = 2.2, HEIGHT_MM - EDGE_MM - 3
+BIG, TEXT, TABLE, SMALL = 12.0, 8.0, 7.5, 7.0
 """Sizes of type in points; there is none smaller."""
 MOST_TARGETS = 3
 """Sentences on targets beside that of the verdict; more stand behind the first page, whose table has all."""
@@ -64,7 +64,8 @@ def sheet(inputs: Sequence[PathLike], *, case: str = "", date: str = "", note: s
 
 def _fill(paper: Paper, case: Case, heading: Tuple[str, str, str], pictures: List[Picture]) -> None:
     rows = sheet_text.rows_of(case)
-    upper, table, notes = _above(paper, case, rows, heading), _tables(paper, case, rows), sheet_text.notes(case)
+    upper, below, notes = _above(paper, case, rows, heading), _below(paper, case, rows), sheet_text.notes(case)
+    table = (_limits(paper, rows) if rows else []) + (_targets(paper, case) if case.sweep else [])
     main = [each for each in pictures[:1] if each.width <= PICTURE_MM]
     wide = INNER_MM - PICTURE_MM - 4 if main else INNER_MM
     shown = main + ([bars(paper, rows, sheet_text.headline(case, rows), wide)] if rows else [])
@@ -72,7 +73,7 @@ def _fill(paper: Paper, case: Case, heading: Tuple[str, str, str], pictures: Lis
     for count in range(5, -1, -1):
         first, rest = sheet_text.first_and_rest(notes, count)
         lower = _notes(paper, case, first)
-        room = LAST_MM - EDGE_MM - upper.height - lower.height - 2 * GAP_MM
+        room = LAST_MM - EDGE_MM - upper.height - below.height - lower.height - GAP_MM
         if room >= least + sum(block.height for block in table[:4]):
             break
     else:
@@ -83,7 +84,7 @@ def _fill(paper: Paper, case: Case, heading: Tuple[str, str, str], pictures: Lis
     top = paper.flow([upper], EDGE_MM, EDGE_MM, LAST_MM)
     for each in shown:
         _draw(paper, each, EDGE_MM if each in main else EDGE_MM + INNER_MM - wide, top, PICTURE_MM if each in main else wide, height)
-    top = paper.flow(table[:count], top + height + GAP_MM, EDGE_MM, HEIGHT_MM)
+    paper.flow([*table[:count], below], top + height + GAP_MM, EDGE_MM, HEIGHT_MM)
     paper.flow([lower], LAST_MM - lower.height, EDGE_MM, HEIGHT_MM)
     paper.turn()
     _rest(paper, case, rows, table[count:], pictures[len(main):], rest)
@@ -91,7 +92,7 @@ def _fill(paper: Paper, case: Case, heading: Tuple[str, str, str], pictures: Lis
         paper.figure = page
         more = "All other notes, contacts, shape, sources and files follow." if i == 0 else sheet_text.patient_line(case, *heading[:2])
         foot = wrapped(f"Page {i + 1} of {len(paper.pages)}. {more}", INNER_MM, SMALL)[0]
-        paper.line(EDGE_MM, HEIGHT_MM - EDGE_MM - 4, foot, SMALL, colour="#555555")
+        paper.line(EDGE_MM, HEIGHT_MM - EDGE_MM - 2, foot, SMALL, colour="#555555")
 
 
 def _draw(paper: Paper, picture: Picture, left: float, top: float, width: float, height: float) -> None:
@@ -118,7 +119,7 @@ def _other_targets(case: Case, rows: List[Row]) -> List[str]:
 
 def _notes(paper: Paper, case: Case, first: List[Note]) -> Block:
     blocks = [paper.paragraph(f"• {note.text}", EDGE_MM, INNER_MM, TEXT) for note in first]
-    return stacked([nothing(GAP_MM), *blocks, nothing(0.8), paper.paragraph(sheet_text.scope(case), EDGE_MM, INNER_MM, TEXT, bold=True)])
+    return stacked([nothing(1.2), *blocks, nothing(0.8), paper.paragraph(sheet_text.scope(case), EDGE_MM, INNER_MM, TEXT, bold=True)])
 
 
 def _rest(paper: Paper, case: Case, rows: List[Row], table: List[Block], pictures: List[Picture], notes: List[Note]) -> None:
@@ -137,15 +138,13 @@ def _rest(paper: Paper, case: Case, rows: List[Row], table: List[Block], picture
     paper.flow([*blocks, nothing(1.5), *paper.lines(sheet_text.made_from(case), EDGE_MM, INNER_MM, SMALL, colour="#555555")], top, EDGE_MM, LAST_MM)
 
 
-def _tables(paper: Paper, case: Case, rows: List[Row]) -> List[Block]:
-    """The limits, what their columns are of, and the targets of a sweep."""
-    blocks = _limits(paper, rows) if rows else []
+def _below(paper: Paper, case: Case, rows: List[Row]) -> Block:
+    """What the columns of the limits are of."""
     below = ["Living hips: of other people, in grey a clinical range."] * any(row.living[0] for row in rows)
     below += ["Not compared with other hips, as zero is not known to be neutral."] * (case.rom is not None and (case.rom.get("zero") or {}).get("is_neutral") is False)
     below += ["In brackets: 5 to 95 % of displaced joints."] * any(end.band for row in rows for end in row.ends)
     below += [f"{each}." for each in footnotes([row.now for row in rows])]
-    blocks += paper.lines(" ".join(below), EDGE_MM, INNER_MM, SMALL)
-    return blocks + ([nothing(1.2), *_targets(paper, case)] if case.sweep else [])
+    return paper.paragraph(" ".join(below), EDGE_MM, INNER_MM, SMALL)
 
 
 def _limits(paper: Paper, rows: Sequence[Row]) -> List[Block]:
@@ -168,7 +167,7 @@ def _limits(paper: Paper, rows: Sequence[Row]) -> List[Block]:
         given = [Cell(texts[i] or "–", bold=column.heading == "planned" and row.is_changed,
                       colour=style.GREY if grey.get(column.heading) else style.BLACK) for column, texts in kept.items()]
         cells.append([Cell(str(i + 1)), Cell(marked_name(row.now), bold=row.target is not None), *given])
-    return paper.table([Column(""), Column("motion", 4), *kept], cells, EDGE_MM, INNER_MM, TEXT)
+    return paper.table([Column(""), Column("motion", 4), *kept], cells, EDGE_MM, INNER_MM, TABLE)
 
 
 def _ended_by(row: Row, at_rim: bool) -> str:

@@ -87,8 +87,8 @@ def _cuts(paper: Paper, case: Case, given: Optional[Path]) -> List[Picture]:
         path = given if given and not found else case.paths["plan"].with_name(f"depth_{cut['body']}.png")
         image = _image(paper, path) if path == given or path.exists() else None
         title = f"Planned resection: {spaced(cut['name'])}" + (", depth in mm" if image and path != given else "")
-        rest = TITLE_MM + 4 * SMALL * MM_PER_POINT * LINE
-        found.append(Picture(title, rest + (40 if image else 0), rest + (83 if image else 0), functools.partial(_cut, paper, case.plan, cut, image)))
+        height = TITLE_MM + 4 * SMALL * MM_PER_POINT * LINE + (82.5 if image else 0)
+        found.append(Picture(title, height, height, functools.partial(_cut, paper, case.plan, cut, image)))
     return found
 
 

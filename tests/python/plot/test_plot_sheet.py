@@ -205,7 +205,7 @@ def test_the_first_page_has_the_five_gravest_notes_and_any_number_follows(full, 
     first = [text.split(" may")[0].lower() for text in texts_of(drawn[:1]).split("• ")[1:]]
     assert first == ["target_blocked", "neck_is_narrowed", "cut_by_view", "no_head", "low_coverage"]
     answer = json.loads((full / "rom.json").read_text())
-    answer["notes"] = [{"code": "open_mesh" if i < 5 else "n", "text": f"{i}: {NOTES[0] * (60 if i == 7 else 9)}"} for i in range(30)]
+    answer["notes"] = [{"code": "open_mesh" if i < 5 else "n", "text": f"{i}: {NOTES[0] * (60 if i == 7 else 18)}"} for i in range(30)]
     pages = figures.sheet([folder(tmp_path, rom=answer)])
     assert is_tidy(pages) and 1 < texts_of(pages[:1]).count("• ") < 5 and all(f"• {i}: " in texts_of(pages) for i in range(30))
 
