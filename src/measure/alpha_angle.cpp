@@ -110,6 +110,16 @@ AlphaFinding alpha_angle(const Contour& half, const Circle& circle, double head_
   return {{}, core::formatted("the contour nowhere comes within %.1f mm of the head's circle", tolerance_mm)};
 }
 
+bool neck_ends(const Contour& half, double head_radius) {
+  const auto is_end = [&](const Vec2& p, bool ends) {
+    return ends && p.y() < head_radius && p.x() >= neck_begins * head_radius &&
+           p.x() <= neck_reach * head_radius;
+  };
+  return std::any_of(half.begin(), half.end(), [&](const ContourPiece& piece) {
+    return is_end(piece.from, piece.from_end) || is_end(piece.to, piece.to_end);
+  });
+}
+
 std::optional<Vec2> narrowest_neck(const Contour& half, double head_radius) {
   std::optional<Vec2> nearest;
   for (ContourPiece piece : half) {

@@ -41,6 +41,9 @@ std::optional<CircleFit> head_circle(const Contour& section, double head_radius)
 /// `half` is that side, y >= 0; `circle` is mirrored with it. Exact for the contour as it is: no steps of the angle.
 AlphaFinding alpha_angle(const Contour& half, const Circle& circle, double head_radius, double tolerance_mm);
 
+/// Whether the mesh ends within 0.3 to 1.6 head radii along the neck's axis and one of it.
+bool neck_ends(const Contour& half, double head_radius);
+
 /// The least distance of the bone's outside from the neck's axis between 0.3 and 1.6 head radii from the centre; empty if there is none.
 std::optional<Vec2> narrowest_neck(const Contour& half, double head_radius);
 

@@ -49,7 +49,8 @@ void set_head(const TriMesh& femur, const SphericalPatch& head, FemurMeasures& o
 }
 
 void set_around_neck(const TriMesh& femur, const std::optional<ShaftAxis>& shaft, const NeckLine& line,
-                     const SphericalPatch& head, const BodyAxes& axes, FemurMeasures& out) {
+                     const SphericalPatch& head, const BoneParts& parts, const BodyAxes& axes,
+                     FemurMeasures& out) {
   const Sphere& sphere = head.fit.sphere;
   const Vec3 up = shaft ? Vec3(-shaft->direction) : axes.superior;
   const auto clock = clock_about(line.direction, up, axes.anterior);
@@ -61,7 +62,7 @@ void set_around_neck(const TriMesh& femur, const std::optional<ShaftAxis>& shaft
   }
   out.neck = NeckGeometry{sphere, line.direction, line.outline, *clock,
                           shaft ? ClockSource::shaft : ClockSource::frame};
-  out.around_neck = around_neck(femur, *out.neck);
+  out.around_neck = around_neck(femur, *out.neck, parts.femur_ends);
   set_alpha(out.around_neck, sphere.radius, out);
   const std::string grain =
       alpha_grain_note(grain_of(femur, head.fit.vertices, sphere.centre), sphere.radius);
@@ -109,11 +110,11 @@ void set_version(const TriMesh& femur, const std::optional<ShaftAxis>& shaft,
 FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, const BoneParts& parts,
                             const BodyAxes& axes) {
   const Sphere& sphere = head.fit.sphere;
-  const NeckFinding found = find_neck(femur, sphere);
+  const NeckFinding found = find_neck(femur, sphere, parts.femur_ends);
   const ShaftFinding shaft = find_shaft(femur, sphere, parts.femur_ends);
   FemurMeasures out = femur_not_measured(found.why_none);
   set_head(femur, head, out);
-  if (found.neck) set_around_neck(femur, shaft.shaft, *found.neck, head, axes, out);
+  if (found.neck) set_around_neck(femur, shaft.shaft, *found.neck, head, parts, axes, out);
   set_shaft(femur, shaft, found.neck, found.why_none, sphere, parts, out);
   set_version(femur, shaft.shaft, found.neck, found.why_none, sphere, parts, axes, out);
   return out;

@@ -50,9 +50,11 @@ void add_crossings(Index i, Index j, const Vec3& p, const Vec3& q, double radius
 struct Loop {
   Vec3 area = Vec3::Zero(), open = Vec3::Zero(), moment = Vec3::Zero();
   double length = 0;
+  bool has_end = false;  ///< It goes over a face in which the mesh ends.
   std::vector<Vec3> outline;
 
   void add(const Loop& other) {
+    has_end |= other.has_end;
     area += other.area, open += other.open, moment += other.moment, length += other.length;
     outline.insert(outline.end(), other.outline.begin(), other.outline.end());
   }
@@ -96,7 +98,8 @@ Loop arcs_in(const std::array<Vec3, 3>& corners, const std::vector<Crossing>& cr
 }
 
 /// One loop for each connected chain of triangles; if some of them stay open, as where vertices are not welded, all together.
-std::vector<Loop> loops_on(const TriMesh& femur, const Vec3& centre, double radius) {
+std::vector<Loop> loops_on(const TriMesh& femur, const Vec3& centre, double radius,
+                           const std::vector<char>& ends) {
   std::vector<Loop> pieces;
   std::vector<std::array<Index, 3>> keys;
   std::vector<Index> piece_of_key;
@@ -118,6 +121,7 @@ std::vector<Loop> loops_on(const TriMesh& femur, const Vec3& centre, double radi
       piece_of_key.push_back(static_cast<Index>(pieces.size()));
     }
     pieces.push_back(arcs_in(corners, crossings, radius));
+    pieces.back().has_end = ends[i] && ends[j] && ends[k];
   }
   mesh::DisjointSets sets(pieces.size());
   std::map<std::array<Index, 3>, Index> first_at;
@@ -140,14 +144,20 @@ std::vector<Loop> loops_on(const TriMesh& femur, const Vec3& centre, double radi
 
 }  // namespace
 
-NeckFinding find_neck(const TriMesh& femur, const Sphere& head) {
+NeckFinding find_neck(const TriMesh& femur, const Sphere& head, const std::vector<char>& ends) {
   const double radius = neck_sphere * head.radius;
-  const auto loops = loops_on(femur, head.centre, radius);
+  const auto loops = loops_on(femur, head.centre, radius, ends);
   const auto found = std::max_element(
       loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.area.norm() < b.area.norm(); });
   if (found == loops.end())
     return {{}, core::formatted("the mesh ends within %.1f radii of the head: it has no neck", neck_sphere)};
   if (found->open.norm() > closed * radius) return {{}, "the surface of the neck is open"};
+  if (found->has_end)
+    return {
+        {},
+        core::formatted(
+            "the bone is cut off within %.1f radii of the head's centre: the neck's axis is not in this mesh",
+            neck_sphere)};
   // Seen from outside, the surface within the sphere faces away from the neck.
   Vec3 direction = -found->area.normalized();
   const Vec3 middle = found->moment / found->length;

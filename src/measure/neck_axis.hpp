@@ -29,7 +29,8 @@ inline constexpr double neck_sphere = 1.4;
 ///      `-._.-'=====' on 1.4 R
 ///
 /// In the plane of a triangle (foot of the perpendicular q, normal N, radius rho) the loop is an arc from p0 to p1 by the
-/// turn t, and adds (q x (p1 - p0) + rho^2 t N) / 2: nothing is approximated. The largest loop is the neck's. Linear in the mesh.
-NeckFinding find_neck(const TriMesh& femur, const Sphere& head);
+/// turn t, and adds (q x (p1 - p0) + rho^2 t N) / 2: nothing is approximated. The largest loop is the neck's; there is none if it goes over a face whose
+/// corners are marked in `ends`, in which the mesh ends. Linear in the mesh.
+NeckFinding find_neck(const TriMesh& femur, const Sphere& head, const std::vector<char>& ends);
 
 }  // namespace condyle::measure

@@ -26,7 +26,7 @@ NeckHour on_side(const Contour& half, const std::optional<CircleFit>& fit, doubl
                  double turn, const AxisSections& sections, double head_radius) {
   NeckHour out{};
   out.hour = hour;
-  if (const auto narrow = narrowest_neck(half, head_radius)) {
+  if (const auto narrow = neck_ends(half, head_radius) ? std::nullopt : narrowest_neck(half, head_radius)) {
     out.offset_mm = head_radius - narrow->y();
     out.offset_point = sections.point(turn, *narrow);
   }
@@ -74,16 +74,21 @@ std::optional<motion::ClockFace> clock_about(const Vec3& axis, const Vec3& up, c
   return motion::ClockFace{twelve.normalized(), three.dot(anterior) > 0 ? three : Vec3(-three)};
 }
 
-std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck) {
+std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck,
+                                  const std::vector<char>& ends) {
   const double radius = neck.head.radius;
-  const TriMesh near = near_part(femur, {neck.head.centre, 1.01 * neck_reach * radius}).mesh;
-  const AxisSections sections(near, neck.head.centre, neck.direction, neck.clock.twelve, neck.clock.three);
+  const MeshPart near = near_part(femur, {neck.head.centre, 1.01 * neck_reach * radius});
+  std::vector<char> marks;
+  for (const Index v : near.vertices) marks.push_back(ends[v]);
+  const AxisSections sections(near.mesh, neck.head.centre, neck.direction, neck.clock.twelve,
+                              neck.clock.three, std::move(marks));
   std::vector<NeckHour> hours(neck_steps);
   const auto set_plane = [&](std::size_t k) {
     const std::size_t other = k + neck_steps / 2;
     const auto hour = [](std::size_t step) { return 12.0 * static_cast<double>(step) / neck_steps; };
     const double turn = two_pi * static_cast<double>(k) / neck_steps;
-    const Contour section = sections.at(turn);
+    Contour section = sections.at(turn);
+    std::erase_if(section, [](const ContourPiece& piece) { return piece.from_end && piece.to_end; });
     const auto fit = head_circle(section, radius);
     const double beside = fit ? fit->circle.centre.y() : 0;
     hours[k] = on_side(upper_half(section), fit, beside, hour(k), turn, sections, radius);
@@ -129,7 +134,7 @@ void set_largest(const std::vector<NeckHour>& hours, FemurMeasures& out) {
 }
 
 void set_offset(const NeckHour& hour, double head_radius, Measure& offset, Measure& ratio) {
-  const std::string no_neck = "no contour of the neck is in this plane";
+  const std::string no_neck = "the neck's contour is not in this plane, or not to its end";
   offset = measured_or(hour.offset_mm, no_neck);
   ratio = hour.offset_mm ? measured(*hour.offset_mm / (2 * head_radius)) : not_measured(no_neck);
 }

@@ -173,7 +173,7 @@ TEST(KnownMeasures, ANecksVectorAreaIsThatOfTheLoopItCuts) {
   const Sphere head{Vec3::Zero(), 24};
   constexpr int facets = 6;
   const TriMesh femur = revolved(neck_axis, {{-10, 0}, {-10, 12}, {70, 12}, {70, 0}}, facets);
-  const auto found = measure::find_neck(femur, head);
+  const auto found = measure::find_neck(femur, head, std::vector<char>(femur.vertices.size()));
   ASSERT_TRUE(found.neck) << found.why_none;
   EXPECT_LT((found.neck->direction - neck_axis).norm(), 1e-12);
   EXPECT_NEAR(found.neck->area_mm2, facets / 2.0 * 144 * std::sin(2 * std::numbers::pi / facets), 1e-9);

@@ -87,6 +87,40 @@ TEST(MissingParts, AHeadWithoutNeckHasOnlyTheMeasuresOfAHead) {
   EXPECT_TRUE(m.acetabulum.inclination.value);
 }
 
+/// What the neck's axis and the clock about it decide.
+constexpr std::array of_neck{
+    &FemurMeasures::torsion_in_frame, &FemurMeasures::alpha_12,      &FemurMeasures::alpha_1_30,
+    &FemurMeasures::alpha_3,          &FemurMeasures::alpha_largest, &FemurMeasures::alpha_largest_at_1mm,
+    &FemurMeasures::offset_12,        &FemurMeasures::offset_1_30,   &FemurMeasures::offset_3};
+
+TEST(MissingParts, AFemurCutNearItsHeadHasTheMeasuresOfTheWholeNeckOrNone) {
+  std::vector<Joint> hips{hip_of(sample().hip_bone, sample().femur)};
+  if (const auto real = hip_vhf_right()) hips.push_back(*real);
+  for (const Joint& hip : hips) {
+    const NeckGeometry neck = *measure_hip(hip).femur.neck;
+    const auto cut_at = [&](const Vec3& along, double radii) {
+      const std::array plane{mesh::CuttingPlane{neck.head.centre + radii * neck.head.radius * along, along}};
+      return measure_hip(
+                 hip_of(hip.fixed.mesh, mesh::cut_by_planes(hip.mobile.mesh, "femur", plane).inner.mesh))
+          .femur;
+    };
+    for (const Vec3& along : {Vec3(0, -1, 0), neck.direction}) {
+      const FemurMeasures far = cut_at(along, 2);  // the clock is the frame's here too
+      for (const double radii : {0.75, 1.2, 1.32, 1.45, 1.55}) {
+        const FemurMeasures m = cut_at(along, radii);
+        for (const auto measure : of_neck)
+          if ((m.*measure).value)
+            EXPECT_NEAR(*(m.*measure).value, *(far.*measure).value, 0.05) << radii;
+          else
+            EXPECT_TRUE(radii < 1.4 || measure == &FemurMeasures::offset_12 ||
+                        measure == &FemurMeasures::offset_1_30 || measure == &FemurMeasures::offset_3)
+                << radii << (m.*measure).why_none;
+        if (radii <= 1.2) expect_why(m.alpha_largest, "within 1.4 radii of the head");
+      }
+    }
+  }
+}
+
 TEST(MissingParts, WithoutARimThereIsNoOpeningAndWithoutASocketNothingOfIt) {
   const Joint roof =
       hip_of(kept_of(sample().hip_bone, [](const Vec3& p) { return p.y() > 10; }), sample().femur);
