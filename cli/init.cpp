@@ -12,11 +12,13 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/label_file.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/joint_checks.hpp"
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
 #include "io/image/unread_image.hpp"
 #include "label_options.hpp"
 #include "model_options.hpp"
+#include "notes.hpp"
 #include "proposed_files.hpp"
 #include "with_progress.hpp"
 
@@ -98,6 +100,12 @@ void propose_from_labels(const InitArguments& options) {
   write_proposal(joint, request.joint_file);
 }
 
+/// What is wrong with the ligaments that the file has; other notes are for whoever answers by it.
+void note_ligaments(const io::Model& model, const io::ModelJointRequest& request) {
+  const io::LoadedJoint joint = io::read_joint(model, request);
+  note_all(check_ligaments(joint.joint, joint.report.placement));
+}
+
 void propose_from_model(const InitArguments& options) {
   if (!options.mobile.empty()) throw UsageError("MOBILE: a model has both bodies");
   if (options.units) throw UsageError("--units: lengths of a model are metres");
@@ -113,9 +121,13 @@ void propose_from_model(const InitArguments& options) {
   const std::string unusable = proposed.missing_body + proposed.unreadable;
   if (options.out.empty()) print(proposed.proposal.toml);
   if (!unusable.empty()) throw FileError(unusable);
-  if (options.out.empty()) return;
-  io::write_output_file(options.out, proposed.proposal.toml);
-  note("wrote " + options.out);
+  if (!options.out.empty()) {
+    io::write_output_file(options.out, proposed.proposal.toml);
+    note("wrote " + options.out);
+  }
+  if (proposed.proposal.to_fill_in.empty() &&
+      proposed.proposal.toml.find("[[ligament]]") != std::string::npos)
+    note_ligaments(model, request);
 }
 
 void init_command(const InitArguments& options, const CLI::App& command) {

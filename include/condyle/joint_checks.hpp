@@ -37,11 +37,14 @@ enum class JointNoteCode : std::uint8_t {
   socket_smaller_than_head,  ///< By their fitted radii.
   socket_larger_than_head,   ///< So much that the head is none of a bone: an implant's ball without its cup.
   axes_not_upright,          ///< Superior does not point up the bones.
-  axes_turned,      ///< About superior: by 180 degrees, as where LPS is read as RAS, or a knee's by others.
-  wrong_side,       ///< The hip bone lies lateral of its socket, or a femur is shaped as the other side's.
-  mirrored,         ///< Only front and back are exchanged.
-  bodies_disagree,  ///< The two bodies are of different sides.
-  turned_leg,       ///< The femur of a hip does not lie in neutral where its angles are zero.
+  axes_turned,        ///< About superior: by 180 degrees, as where LPS is read as RAS, or a knee's by others.
+  wrong_side,         ///< The hip bone lies lateral of its socket, or a femur is shaped as the other side's.
+  mirrored,           ///< Only front and back are exchanged.
+  bodies_disagree,    ///< The two bodies are of different sides.
+  turned_leg,         ///< The femur of a hip does not lie in neutral where its angles are zero.
+  ligament_off_bone,  ///< A ligament ends off its body, or nearer to the other one.
+  ligament_through_bone,  ///< Its straight part runs through a body in the pose in which the meshes are given.
+  unlikely_strain,        ///< A strain or slack length that no ligament has, as in per cent or another unit.
 };
 
 /// As in files: "wrong_side".
@@ -72,6 +75,10 @@ inline constexpr double farthest_head_from_socket_mm = 1.5;
 /// Searches both surfaces for spheres, which are kept with their meshes: some tens of milliseconds for 50,000 triangles, less
 /// where a fit gave the centre.
 [[nodiscard]] std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement);
+
+/// Those of them that are about ligaments: ends off their bones, strings through bone, strains and slack lengths of other units. The pose in which
+/// the mobile body is given decides, unless one body is inside the other there, as in models that count from elsewhere.
+[[nodiscard]] std::vector<JointNote> check_ligaments(const Joint& joint, const JointPlacement& placement);
 
 // From where the angles of a joint count, and how the femur of a hip lies there.
 

@@ -81,6 +81,7 @@ enum class ContactNoteCode : std::uint8_t {
   mostly_apart,             ///< The bodies are far from each other in most frames.
   mostly_deep,              ///< They are far within each other in most frames.
   unknown_ligament_length,  ///< A ligament meets an ellipsoid, or an end of it is inside what it wraps.
+  unlikely_strain,          ///< A ligament is strained by more than any bears.
 };
 
 /// As in files: "unlikely_modulus".
@@ -120,6 +121,10 @@ struct BodyNames {
 /// bodies in most frames that have an answer.
 [[nodiscard]] std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact>> frames,
                                                     const BodyNames& names = {});
+
+/// Names ligaments without a length, and with a strain of more than a half, in some of these poses: ligaments_along() of them.
+[[nodiscard]] std::vector<ContactNote> check_ligaments(std::span<const LigamentAlong> ligaments,
+                                                       std::span<const std::optional<Pose>> X_FM);
 
 /// Looks at the largest size of a recorded coordinate: an angle in degrees or a length in mm.
 enum class RecordedKind : std::uint8_t { angle_deg, length_mm };

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._contact_checks import ContactNote, reported
 from ._errors import UsageError
 from ._native import Joint as NativeJoint
 from ._words import Body, WrapShape
@@ -101,6 +102,8 @@ class LigamentStates:
     lengthening_mm_s, damping_n, total_n : (L, ...) float64 or None
         How fast it becomes longer, the force of its damping, and tension and damping; None if neither velocities nor
         times were given.
+    notes : tuple of ContactNote
+        Lengths that are not known in some of the poses, and strains that no ligament bears: each is a :class:`JointWarning` too.
     """
 
     names: tuple[str, ...]
@@ -112,6 +115,7 @@ class LigamentStates:
     lengthening_mm_s: Optional[NDArray[np.float64]] = None
     damping_n: Optional[NDArray[np.float64]] = None
     total_n: Optional[NDArray[np.float64]] = None
+    notes: tuple[ContactNote, ...] = ()
 
     def __repr__(self) -> str:
         return f"LigamentStates({len(self.names)} ligaments, {self.length_mm.shape[1:]} poses)"
@@ -142,9 +146,11 @@ def ligament_states(native: NativeJoint, poses: ArrayLike, time_s: Optional[Arra
     names = tuple(each["name"] for each in _native.ligaments_of(native))
     shape = (len(names), *of_poses)
     arrays = _native.ligament_states(native, poses, time_s, velocity_mm_s, angular_velocity_rad_s)
-    return LigamentStates(names, **{key: array.reshape((*shape, 3) if key in ("force_n", "moment_nmm") else shape)
-                                    for key, array in arrays.items()})
+    notes = reported(_native.ligament_checks(native, poses))
+    return LigamentStates(names, notes=notes, **{key: array.reshape((*shape, 3) if key in ("force_n", "moment_nmm") else shape)
+                                                 for key, array in arrays.items()})
 
 
 def ligament_stiffness(native: NativeJoint, poses: ArrayLike) -> NDArray[np.float64]:
+    reported(_native.ligament_checks(native, poses))
     return _native.ligament_stiffness(native, poses).reshape((-1, *np.shape(poses)[:-2], 6, 6))

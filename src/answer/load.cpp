@@ -1,3 +1,5 @@
+#include <array>
+
 #include "answer/foundation_caveat.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -19,6 +21,8 @@ LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadReques
     answer.X_FM = answer.balanced->X_FM;
     answer.contact = answer.balanced->contact;
     answer.ligaments = ligaments_along(request.balance.ligaments, {answer.X_FM});
+    motion::add_new(answer.notes,
+                    motion::check_ligaments(answer.ligaments, std::array{std::optional(answer.X_FM)}));
     if (!answer.carries_load()) return answer;
   } else {
     answer.contact = surfaces.at(request.X_FM);

@@ -102,24 +102,6 @@ std::optional<contact::Load> largest_load(const MotionRequest& request) {
   return largest;
 }
 
-/// Names those whose length is not known in some frames that have a pose.
-std::optional<motion::ContactNote> unknown_lengths(const std::vector<LigamentAlong>& ligaments,
-                                                   const Frames& X_FM) {
-  std::string names;
-  for (const LigamentAlong& ligament : ligaments) {
-    std::size_t unknown = 0;
-    for (std::size_t i = 0; i < X_FM.size(); ++i) unknown += X_FM[i] && !ligament.frames[i];
-    if (unknown == 0) continue;
-    names += (names.empty() ? "" : ", ") + ligament.name + core::formatted(" in %zu", unknown);
-  }
-  if (names.empty()) return std::nullopt;
-  return motion::ContactNote{motion::ContactNoteCode::unknown_ligament_length,
-                             core::formatted("ligaments whose length is not known in some of %zu frames, as "
-                                             "they meet an ellipsoid or end inside what they wrap: ",
-                                             X_FM.size()) +
-                                 names};
-}
-
 /// Whether each frame that has a pose has a recorded motion, which a load would have made another.
 bool are_recorded(const MotionRequest& request) {
   if (request.motions.empty() || request.has_load()) return false;
@@ -211,7 +193,7 @@ std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
   motion::add_new(answer.notes, motion::check_motion(answer.frames, request.names));
   answer.speeds_from = speeds_from(request);
   answer.ligaments = ligaments_of(request, answer.speeds_from, X_FM);
-  if (const auto unknown = unknown_lengths(answer.ligaments, X_FM)) answer.notes.push_back(*unknown);
+  motion::add_new(answer.notes, motion::check_ligaments(answer.ligaments, X_FM));
   if (layers)
     if (const auto largest = frame_of_largest_force(answer))
       if (const auto refined = layers->refined_force_n(answer.frames[*largest]->X_FM))

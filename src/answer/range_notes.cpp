@@ -5,10 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "answer/limit_facts.hpp"
 #include "answer/surface_notes.hpp"
 #include "condyle/answer.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/body_pieces.hpp"
+#include "kinematics/ligament_checks.hpp"
 
 namespace condyle {
 namespace {
@@ -150,6 +152,25 @@ void note_pieces(const Joint& joint, std::span<const motion::MotionLimit> limits
   }
 }
 
+/// A ligament that runs through bone where it ends a motion would be longer round it, and end the motion earlier.
+void note_ligaments(const Joint& joint, std::span<const motion::MotionLimit> limits,
+                    std::vector<RangeNote>& notes) {
+  std::string motions;
+  for (const motion::MotionLimit& limit : limits) {
+    if (limit.end.reason != motion::LimitReason::ligament) continue;
+    const Ligament& ligament = joint.ligaments[*limit.end.ligament];
+    const JointCoordinates at{limit.angles_at_limit(), limit.translation_mm.value_or(Vec3::Zero())};
+    const auto run =
+        kinematics::run_through(joint, ligament, pose_at(joint.coordinates(), at, joint.translation_frame));
+    if (run)
+      motions += (motions.empty() ? "" : "; ") + limit.motion.name + ", where ligament " + ligament.name +
+                 " " + kinematics::text_of(*run, joint);
+  }
+  if (!motions.empty())
+    notes.push_back({RangeNoteCode::limit_through_bone,
+                     "limits are upper bounds, as the way round the bone is longer: " + motions});
+}
+
 std::string_view with_article(const Joint& joint) noexcept {
   if (!joint.names_its_joint()) return "a hinge";
   switch (joint.anatomy) {
@@ -221,6 +242,8 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "differs_from_closed_form";
     case RangeNoteCode::last_value_left_out:
       return "last_value_left_out";
+    case RangeNoteCode::limit_through_bone:
+      return "limit_through_bone";
   }
   return "";
 }
@@ -230,6 +253,7 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const motion::M
   std::vector<RangeNote> notes;
   note_cuts(joint, limits, bearing, notes);
   note_part_cuts(joint, limits, notes);
+  note_ligaments(joint, limits, notes);
   std::vector<motion::Motion> motions;
   for (const motion::MotionLimit& limit : limits) motions.push_back(limit.motion);
   // A shallow socket is wider than its head and has another centre by nature, about which nothing turns.

@@ -451,6 +451,12 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "bodies_disagree";
     case JointNoteCode::turned_leg:
       return "turned_leg";
+    case JointNoteCode::ligament_off_bone:
+      return "ligament_off_bone";
+    case JointNoteCode::ligament_through_bone:
+      return "ligament_through_bone";
+    case JointNoteCode::unlikely_strain:
+      return "unlikely_strain";
   }
   return "";
 }
@@ -476,6 +482,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
   notes.add(of_fixed.take());
   notes.add(of_mobile.take());
   check_parts_cut_off(joint, notes);
+  notes.add(check_ligaments(joint, placement));
   check_fit(joint, placement, notes);
   const bool is_same = are_one_mesh(joint.fixed.mesh, joint.mobile.mesh);
   if (is_same)

@@ -24,6 +24,9 @@ std::optional<Crossing> crossing(const Vec3& fixed, const Vec3& mobile, const Li
 /// The path from insertion to insertion, in F; where it lies on a wrap some tenths of a radian apart. Straight where its length is not known.
 std::vector<Vec3> ligament_points(const Ligament& ligament, const Pose& X_FM);
 
+/// No ligament bears more.
+inline constexpr double largest_strain = 0.5;
+
 /// How a ligament is shown.
 enum class LigamentStretch { slack, taut, at_end, unknown };
 /// At its end from the strain on at which it ends motions; unknown where its length is not known.

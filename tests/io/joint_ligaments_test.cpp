@@ -10,6 +10,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/joint_checks.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "support/test_meshes.hpp"
@@ -156,6 +157,63 @@ TEST_F(JointLigaments, HaveOneOfThreeSlackLengths) {
   expect_refused(points + "slack_length = 0\n", "must be above 0");
   expect_refused(points + "slack_length = nan\n", "must be a finite number");
   expect_refused(points + "taut_at = \"bending=9\"\n", "taut_at");
+}
+
+TEST_F(JointLigaments, ThatContradictTheirBonesOrTheirWordsAreNoted) {
+  // Ends on the rim and 0.2 mm within 5 mm of the ball, and beyond; strings beside the ball, whose depth in it is 24 mm less its least distance.
+  const std::string name = "[[ligament]]\nname = \"a\"\n", slack = "slack_share = 1.05\n",
+                    off = "ligament_off_bone: ", through = "ligament_through_bone: ",
+                    strain = "unlikely_strain: ",
+                    sound = name + "fixed = [30, 0, 0]\nmobile = [20.3, -20.3, 0]\n";
+  const auto below = [&](const char* y) {
+    return name + "fixed = [30, 0, 0]\nmobile = [[-24, 0, 0], [-30, " + y + ", 0], [30, " + y + ", 0]]\n" +
+           slack;
+  };
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {sound + slack, ""},
+      {name + "fixed = [30, 0, 0]\nmobile = [20.7, -20.7, 0]\n" + slack,
+       off + "ligament a: its mobile end is 5.27 mm from"},
+      {name + "fixed = [30, 0, 0]\nmobile = [27, -1, 0]\n" + slack, "and 1 mm from that of fixed"},
+      {name + "fixed = [30, 0, 0]\nmobile = [[20, -20, 0], [0, -330, 0]]\n" + slack,
+       "point 2 of mobile is 306"},
+      {below("-21.2"), ""},
+      {below("-20.8"), through + "ligament a: its straight part runs through mobile for 24 mm, up to 3 mm"},
+      {sound + "slack_share = 1.5\n", ""},
+      {sound + "slack_share = 1.51\n", strain + "ligament a: its slack length is 1.51 times"},
+      {sound + "slack_share = 0.667\n", ""},
+      {sound + "slack_share = 0.666\n", strain + "ligament a: its strain is 0.5015"},
+      {sound + slack + "ends_at_strain = 0.5\n", ""},
+      {sound + slack + "ends_at_strain = 10\n",
+       strain + "ligament a: it ends motions at a strain of 10, 1000 %"},
+      {sound + slack + "stiffness_n = 9\ntransition_strain = 6\n",
+       strain + "ligament a: its transition strain is 6"},
+      {sound + slack + "slack_sigma = 20\n", "deviation of its slack length"}};
+  for (const auto& [ligament, expected] : all) {
+    const io::LoadedJoint loaded = io::read_joint(file(ligament));
+    std::string notes;
+    for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement))
+      if (note.text.starts_with("ligament")) notes += std::string(name_of(note.code)) + ": " + note.text;
+    EXPECT_EQ(notes.empty(), expected.empty()) << ligament << notes;
+    EXPECT_NE(notes.find(expected), std::string::npos) << notes << " has no " << expected;
+  }
+}
+
+TEST_F(JointLigaments, ThatEndAMotionThroughBoneAreNotedWithTheLimit) {
+  // At a turn by t the string is 60 sin(t / 2) long and 30 cos(t / 2) from the centre: 3.58 mm beneath the ball at 44 mm, 2.57 at 42.
+  for (const double strain : {0.05, 0.1}) {
+    const io::LoadedJoint ball =
+        io::read_joint(file("[[ligament]]\nname = \"front\"\nfixed = [30, 0, 0]\nmobile = [30, 0, 0]\n"
+                            "slack_length = 40\nends_at_strain = " +
+                            std::to_string(strain) + "\n"));
+    RangeRequest request;
+    request.motions = {{.name = "flexion", .range = Angle::degrees(180)}};
+    std::string notes;
+    for (const RangeNote& note : answer_range(ball, request).notes)
+      if (note.code == RangeNoteCode::limit_through_bone) notes += note.text;
+    EXPECT_EQ(notes.empty(), strain < 0.1) << notes;
+    if (strain == 0.1)
+      EXPECT_NE(notes.find("flexion, where ligament front runs through mobile for 2"), notes.npos) << notes;
+  }
 }
 
 TEST_F(JointLigaments, ThatNobodyCanMeanAreRefusedInOneLine) {

@@ -216,6 +216,42 @@ abduction = "tilt"
     np.testing.assert_allclose(exact.lengthening_mm_s, (beside[1].length_mm - beside[0].length_mm) / 2e-4, atol=1e-4)
 
 
+def test_what_contradicts_the_bones_stands_in_every_answer(file, command, tmp_path):
+    path = with_strings(file, """
+[[ligament]]
+name = "off"
+fixed = [30, 28, 8]
+mobile = [12, -38, 330]
+slack_share = 105
+wrap = { shape = "ellipsoid", body = "mobile", centre = [0, 0, 0], radii = [1, 1, 1], axes = [[1, 0, 0], [0, 1, 0]] }
+""")
+    joint = condyle.read_joint(path)
+    codes = ["ligament_off_bone", "unlikely_strain"]
+    assert [note.code for note in joint.notes] == codes
+    with pytest.warns(condyle.JointWarning, match="ligament_off_bone: ligament off: its mobile end is"):
+        assert joint.ligament_states(np.eye(4)).notes == ()
+    (tmp_path / "walk.csv").write_text("time,flexion_deg\n0,0\n1,15\n")
+    (tmp_path / "hips.csv").write_text(f"id,joint\na,{path}\n")
+    for words in (["rom"], ["motion", "--motion", tmp_path / "walk.csv"], ["depth", "--pose", "flexion=10"], ["measure"]):
+        said = json.loads(subprocess.run([command, words[0], path, *words[1:], "--json"], check=True, capture_output=True).stdout)
+        assert [note["code"] for note in said["notes"] if "ligament" in note["text"]] == codes, words
+        strict = subprocess.run([command, words[0], path, *words[1:], "--strict"], capture_output=True, text=True)
+        assert strict.returncode == 4 and "ligament off: its mobile end is" in strict.stderr
+    subprocess.run([command, "study", tmp_path / "hips.csv", "--out", tmp_path / "study"], check=True, capture_output=True)
+    assert rows_of(tmp_path / "study" / "hips.csv")[0]["notes"].split() == codes
+
+
+def test_lengths_that_are_not_known_and_strains_that_nothing_bears_are_noted(joint):
+    given = {"name": "a", "fixed": [30, 28, 8], "mobile": [12, -38, 30], "slack_length": 60}
+    round_it = {"wrap": {"shape": "sphere", "body": "mobile", "centre": [12, -38, 30], "radius": 9}}
+    for more, code in ((round_it, "unknown_ligament_length"), ({"slack_length": 50}, "unlikely_strain")):
+        other = condyle.Joint(joint.fixed, joint.mobile, reference_pose={}, ligaments=[{**given, **more}])
+        for ask in (other.ligament_states, other.ligament_stiffness):
+            with pytest.warns(condyle.JointWarning, match=code):
+                ask(other.pose(extension_deg=[0, 60]))
+        assert [note.code for note in other.ligament_states(other.pose(extension_deg=60)).notes] == [code]
+
+
 def test_what_does_not_look_for_ligaments_refuses_them(joint, file, command):
     done = subprocess.run([command, "rom", file, "--allow-depth", "1"], capture_output=True, text=True)
     assert done.returncode == 2 and "ligament front ends motions" in done.stderr
@@ -270,13 +306,6 @@ GRID = ["--map", "flexion=-60:0:30", "adduction=-20:20:20"]
 
 def rows_of(path):
     return list(csv.DictReader(line for line in open(path) if not line.startswith("#")))
-
-
-def test_a_map_says_which_ends_are_of_ligaments(file, command, tmp_path):
-    subprocess.run([command, "rom", file, "--motion", "flexion", *GRID, "--out", tmp_path], check=True, capture_output=True)
-    rows = rows_of(tmp_path / "map.csv")
-    ends = [(row[f"{end}_reason"], row[f"{end}_contact_kind"]) for row in rows for end in ("lower", "upper")]
-    assert ("ligament", "") in ends and ("ligament", "unknown") not in ends
 
 
 TWO_ENDING = """

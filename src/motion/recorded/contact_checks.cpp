@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/formatted.hpp"
+#include "kinematics/ligament_path.hpp"
 #include "mesh/enclosed_volume.hpp"
 
 namespace condyle::motion {
@@ -193,6 +194,8 @@ std::string_view name_of(ContactNoteCode code) noexcept {
       return "mostly_deep";
     case ContactNoteCode::unknown_ligament_length:
       return "unknown_ligament_length";
+    case ContactNoteCode::unlikely_strain:
+      return "unlikely_strain";
   }
   return "";
 }
@@ -282,6 +285,36 @@ std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact
                      formatted("%s and %s are %.4g mm within each other", std::string(names.fixed).c_str(),
                                std::string(names.mobile).c_str(), median(depths)) +
                          of_frames(deep) + ": do the motion's unit, frame and signs fit the joint?"});
+  return notes;
+}
+
+std::vector<ContactNote> check_ligaments(std::span<const LigamentAlong> ligaments,
+                                         std::span<const std::optional<Pose>> X_FM) {
+  std::string unknown, strained;
+  for (const LigamentAlong& ligament : ligaments) {
+    std::size_t without = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < X_FM.size(); ++i) {
+      if (ligament.frames[i])
+        largest = std::max(largest, ligament.frames[i]->strain);
+      else
+        without += X_FM[i].has_value();
+    }
+    if (without > 0) unknown += (unknown.empty() ? "" : ", ") + ligament.name + formatted(" in %zu", without);
+    if (largest > kinematics::largest_strain)
+      strained += (strained.empty() ? "" : ", ") + ligament.name + formatted(" %.3g", largest);
+  }
+  std::vector<ContactNote> notes;
+  if (!unknown.empty())
+    notes.push_back(
+        {ContactNoteCode::unknown_ligament_length,
+         formatted("ligaments meet an ellipsoid or end inside what they wrap, and have no known length "
+                   "in some of %zu frames: ",
+                   X_FM.size()) +
+             unknown});
+  if (!strained.empty())
+    notes.push_back({ContactNoteCode::unlikely_strain, "no ligament bears such a strain: " + strained +
+                                                           ": are points and slack length right?"});
   return notes;
 }
 
