@@ -126,7 +126,7 @@ def bars(paper: Paper, rows: Sequence[Row], spoken_of: Row, width: float) -> Pic
             paper.first_line(left, top + y, marked_name(row.now), width, SMALL + 0.5)
             other = target.get("other_centre") or {}
             if target:
-                ax.vlines(target["reach_deg"], y + BAR_MM, y + BAR_MM * (1 + len(row.ends)), color=style.BLACK, linestyle="--", linewidth=0.9)
+                ax.vlines(target["reach_deg"], y + BAR_MM, y + BAR_MM * (1 + len(row.ends)), color=style.BLACK, linestyle="--", linewidth=0.9, clip_on=False)
             for when, end, colour, about in zip(("now", "planned"), row.ends, (style.GREY, style.BLUE), (other.get("before_deg"), other.get("after_deg"))):
                 y += BAR_MM
                 middle = y + BAR_MM / 2

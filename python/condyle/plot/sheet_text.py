@@ -163,7 +163,7 @@ def verdict(case: Case, rows: List[Row]) -> List[str]:
     short = f", {degrees_text(lacks)} short of {wanted}" if lacks >= CHANGED_DEG and not row.target else ""
     first = f"{name} ends at {value_text(row.now)}, {how}{short}."
     if row.now.end in FREE:
-        alone = "" if any(each.now.end not in FREE for each in rows) else "No contact ends any motion in its range. "
+        alone = "" if any(each.now.end not in FREE for each in rows) else "No contact ends any of these motions in its range. "
         first = f"{alone}{name} is free to {degrees_text(row.now.turned_deg)}, where its range ends."
     if case.plan and row.target:
         return [first, _promise(case.plan, row.target)]

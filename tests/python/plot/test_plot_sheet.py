@@ -239,7 +239,7 @@ def test_without_a_plan_the_verdict_is_on_what_lacks_most(tmp_path):
             ((motion("flexion", 125, normal_range_deg=120), fine), "Internal rotation at 90° flexion ends at 32.0°, femur on hip bone. No motion ends before its "
              "clinical range or the 27.9° of simulated healthy hips."),
             ((motion("fadir", 20, features=parts),), "FADIR ends at 20.0°, neck on liner."),
-            ((motion("faber", 120, reason="end_of_range", normal_range_deg=130),), "No contact ends any motion in its range. FABER is free to 120°, where its range ends."),
+            ((motion("faber", 120, reason="end_of_range", normal_range_deg=130),), "No contact ends any of these motions in its range. FABER is free to 120°, where its range ends."),
             ((motion("faber", 0, reason="contact_at_start"),), "FABER ends at 0.0°, in contact at the start."))):
         found = case(tmp_path / str(n), *motions)
         assert sheet_text.heading(found)[0] == "NOW: limits of the joint as it is; nothing is planned"
