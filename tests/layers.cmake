@@ -118,10 +118,10 @@ foreach(file ${files})
   endforeach()
 endforeach()
 
-# What is read is opened by io/file/input_file.hpp, which records it for keys. Shards are a study's own files.
+# What is read is opened by io/file/input_file.hpp, which records it for keys. Shards and rows that are kept are a study's own files.
 file(GLOB_RECURSE readers RELATIVE ${SOURCE} ${SOURCE}/src/*.hpp ${SOURCE}/src/*.cpp ${SOURCE}/cli/*.cpp ${SOURCE}/cli/*.hpp
      ${SOURCE}/python/bindings/*.cpp)
-list(FILTER readers EXCLUDE REGEX "^src/io/(file/|study/(merge_study|study_files))")
+list(FILTER readers EXCLUDE REGEX "^src/io/(file/|study/(answered_rows|merge_study|study_files))")
 # No line of these files matches.
 function(refuse why regex)
   foreach(file ${ARGN})
