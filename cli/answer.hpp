@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -16,7 +17,11 @@ void print(std::string_view answer);
 
 /// Something that is no answer and no error, one line on standard error whatever a name in it holds. It waits for the
 /// answer, or for the refusal that it may explain.
-void note(std::string remark);
+/// One of an answer has a `code`.
+void note(std::string remark, std::string code = {});
+
+/// Of the notes with a code the first `count` are said, and the codes of the others in a line.
+void say_at_most(std::size_t count);
 
 /// Says the notes that wait.
 void say_notes();

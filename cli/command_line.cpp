@@ -10,7 +10,7 @@ namespace {
 
 /// Options for the place and format of an answer, not its content.
 bool decides_nothing(const std::string& name) {
-  constexpr std::array<std::string_view, 3> names = {"--out", "--crate", "--json"};
+  constexpr std::array<std::string_view, 4> names = {"--out", "--crate", "--json", "--verbose"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -53,6 +53,16 @@ CLI::Option* add_crate(CLI::App& command, std::optional<std::string>& date) {
                   "Say in ro-crate-metadata.json which files were made of which, as a Process Run Crate of "
                   "RO-Crate that was published on this day: results have no date of their own")
       ->option_text("YYYY-MM-DD");
+}
+
+void add_verbose(CLI::App& command, io::TextForm& form) {
+  command.add_flag_callback(
+      "--verbose", [&form] { form = io::TextForm::whole; },
+      "Print the table of bands, every caveat with its source and every note too");
+}
+
+void say_as(io::TextForm form) {
+  if (form == io::TextForm::brief) say_at_most(3);
 }
 
 void add_json(CLI::App& command, AnswerForm& form, const char* help) {

@@ -13,6 +13,11 @@ namespace condyle::cli {
 namespace {
 
 constexpr std::size_t line_width = 100, description_column = 32;
+constexpr std::ptrdiff_t most_lines = 60;
+
+std::ptrdiff_t lines_in(std::string_view text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
 
 /// Broken between words, with `at_break` before each break, lines after the first indented; lines of the text stay lines, with what
 /// they begin with.
@@ -51,9 +56,11 @@ std::string entry(std::string name, const std::string& description) {
   return name + wrapped(description, description_column, description_column) + "\n";
 }
 
-/// Without the argument that a command takes.
+/// Without the argument that a command takes, and without --help-all, which the help of a command names where it leaves options out.
 std::vector<const CLI::Option*> options_of(const CLI::App& app) {
-  return app.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+  const CLI::Option* left_out = app.get_parent() ? app.get_help_all_ptr() : nullptr;
+  return app.get_options(
+      [&](const CLI::Option* option) { return option->nonpositional() && option != left_out; });
 }
 
 }  // namespace
@@ -69,6 +76,13 @@ HelpFormatter::HelpFormatter(std::vector<HelpGroup> groups) : groups_(std::move(
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
   std::string help = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
   std::vector<const CLI::Option*> rest = options_of(*app);
+  std::vector<std::pair<std::string, std::string>> groups;  // title and text
+  std::ptrdiff_t lines = 0;
+  const auto add = [&](const std::string& title, const std::vector<const CLI::Option*>& shown) {
+    if (shown.empty()) return;
+    groups.emplace_back(title, make_group(title, false, shown));
+    lines += lines_in(groups.back().second);
+  };
   for (const HelpGroup& group : groups_) {
     std::vector<const CLI::Option*> shown;
     for (const std::string& option : group.options) {
@@ -78,10 +92,23 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
       shown.push_back(*found);
       rest.erase(found);
     }
-    if (!shown.empty()) help += make_group(group.title, false, shown);
+    add(group.title, shown);
   }
-  if (!rest.empty()) help += make_group(groups_.empty() ? "Options" : "Other", false, rest);
-  return help + make_subcommands(app, mode) + "\n" + make_footer(app);
+  add(groups_.empty() ? "Options" : "Other", rest);
+  std::string end = make_subcommands(app, mode) + "\n" + make_footer(app);
+  const bool has_all =
+      mode != CLI::AppFormatMode::Normal || lines_in(help) + lines + lines_in(end) <= most_lines;
+  std::string left_out;
+  std::ptrdiff_t free =
+      most_lines - lines_in(help) - lines_in(end) - 2;  // the line on those left out, broken
+  for (const auto& [title, text] : groups) {
+    free -= lines_in(text);
+    if (has_all || (free >= 0 && left_out.empty()))
+      help += text;
+    else
+      left_out += (left_out.empty() ? "More options by --help-all: " : ", ") + title;
+  }
+  return help + end + (left_out.empty() ? "" : wrapped(left_out, 0, 2) + "\n");
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {

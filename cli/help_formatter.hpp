@@ -6,7 +6,7 @@
 
 namespace condyle::cli {
 
-/// Options by their long names, in the order of the help.
+/// Options by their long names, in the order of the help: those that most people need first.
 struct HelpGroup {
   std::string title;
   std::vector<std::string> options;
@@ -16,7 +16,7 @@ struct HelpGroup {
 HelpGroup uncertainty_group();
 
 /// Help of lines no longer than a terminal is wide: descriptions are broken between words. Options stand in groups; those in
-/// no group come last.
+/// no group come last. Help of more than 60 lines ends with the group that still fits, and its last line names those that --help-all has.
 class HelpFormatter : public CLI::Formatter {
  public:
   explicit HelpFormatter(std::vector<HelpGroup> groups = {});

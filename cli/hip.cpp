@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "answer/check_gains.hpp"
 #include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
@@ -53,6 +54,8 @@ struct HipArguments {
   LabelOptions labels;
   std::optional<Side> side;
   std::optional<LengthUnit> units;
+  std::optional<io::PolygonRule> polygons;
+  io::TextForm form = io::TextForm::brief;
   RangeArguments range;
   Person person;
   io::ReportLabels words;
@@ -135,12 +138,14 @@ std::vector<Propose> joints_of_meshes(const HipArguments& options) {
   std::vector<Propose> joints;
   for (const std::string& femur : options.femora)
     joints.emplace_back([&options, femur] {
-      return Proposed{io::propose_joint(io::ProposalRequest{.fixed = options.pelvis,
-                                                            .mobile = femur,
-                                                            .joint_file = options.joint_file(Side::left),
-                                                            .side = options.side,
-                                                            .units = options.units,
-                                                            .anatomy = Anatomy::hip}),
+      return Proposed{io::propose_joint(io::ProposalRequest{
+                          .fixed = options.pelvis,
+                          .mobile = femur,
+                          .joint_file = options.joint_file(Side::left),
+                          .side = options.side,
+                          .units = options.units,
+                          .anatomy = Anatomy::hip,
+                          .polygons = options.polygons.value_or(io::PolygonRule::refuse)}),
                       std::nullopt, femur};
     });
   return joints;
@@ -217,6 +222,7 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
   if (!options.plan.empty()) {
     plan.emplace().resection.targets = reach_targets(request.range.motions, options.plan);
     plan->curve_points = 0;  // each costs a cut: condyle resect has them
+    check_gains(hip.loaded, request.range, *plan);
   }
   hip.answer =
       with_progress([&](const Control& control) { return io::answer_report(hip.loaded, request, control); });
@@ -236,6 +242,27 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
         [&](const Control& control) { return answer_range(kept.loaded, request.range, control); });
   request.plan = std::move(plan);
   if (request.plan) kept.planned = write_plan(folder, kept, request, words, whose);
+}
+
+/// For each hip its surfaces, limits with bands and shape, and as much again for a plan with its cuts: about what each takes.
+std::vector<std::vector<double>> pieces_of_work(const HipArguments& options, bool of_labels,
+                                                std::size_t hips) {
+  std::vector<std::vector<double>> pieces;
+  for (std::size_t i = 0; i < hips; ++i) {
+    if (of_labels) pieces.push_back({1, 1});
+    pieces.push_back({2, 10});
+    if (!options.plan.empty()) pieces.push_back({3, 2, 10});
+  }
+  return pieces;
+}
+
+/// What can be told before the work.
+void check_bones(const HipArguments& options, bool are_labels) {
+  if (!are_labels) (void)io::mesh_format_of(options.pelvis);
+  for (const std::string& femur : options.femora)
+    if (std::error_code ignored; femur.find('=') != femur.npos && !fs::exists(femur, ignored))
+      throw UsageError("FEMUR: there is no file " + femur +
+                       ": several targets of --plan stand in quotes, \"fadir=30 flexion=115\"");
 }
 
 void check_out(const HipArguments& options) {
@@ -290,7 +317,7 @@ void print_limits(const HipArguments& options, std::list<AnsweredHip>& hips) {
     say_written({table});
     print(io::both_sides_text(of_left, of_right) + plans);
   } else if (left || right) {
-    print(io::rom_text(*(left ? left : right)->limits()) + plans);
+    print(io::rom_text(*(left ? left : right)->limits(), options.form) + plans);
   }
 }
 
@@ -317,17 +344,22 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
   check_out(options);
   io::refuse_unread_image(options.pelvis);
   const bool of_labels = io::label_format_of(options.pelvis).has_value();
+  check_bones(options, of_labels);
   if (!of_labels) refuse_label_options(command, options.pelvis);
   if (!of_labels && !(options.fixed_label + options.mobile_label).empty())
     throw UsageError("--fixed, --mobile: are for label maps, and " + options.pelvis + " is none");
   if (options.side && options.femora.size() > 1)
     throw UsageError("--side: is for one femur: of two each is of its own side");
   if (of_labels && options.units) throw UsageError("--units: surfaces of label maps are in mm");
+  if (of_labels && options.polygons) throw UsageError("--polygons: surfaces of label maps have none");
+  say_as(options.form);
   if (!options.plan.empty())
     (void)reach_targets(motion::hip_motions(), options.plan);  // throws before the work
   std::list<AnsweredHip> answered;
   std::exception_ptr refused;  // one hip without an answer does not keep the other from having one
-  for (const Propose& propose : of_labels ? joints_of_labels(options) : joints_of_meshes(options)) {
+  const std::vector<Propose> joints = of_labels ? joints_of_labels(options) : joints_of_meshes(options);
+  const WholeProgress progress("hip", pieces_of_work(options, of_labels, joints.size()));
+  for (const Propose& propose : joints) {
     std::string whose;
     try {
       Proposed proposed = propose();
@@ -387,6 +419,7 @@ void add_hip(CLI::App& app) {
               {"in", LengthUnit::inches},
               {"m", LengthUnit::metres}},
              "The unit of the meshes. Default: inferred from their size");
+  add_polygons(*command, options->polygons, "refuse");
   command
       ->add_option("--fixed", options->fixed_label,
                    "The label of the pelvis or hip bone: its number, or its name. Default: by its name")
@@ -409,14 +442,16 @@ void add_hip(CLI::App& app) {
   command->add_option("--note", options->words.note, "Put this under the results")->option_text("TEXT");
   command->add_option("--date", options->words.date, "Put this date into the headings")->option_text("TEXT");
   add_crate(*command, options->crate_date);
+  add_verbose(*command, options->form);
   std::vector<std::string> of_labels{"--fixed", "--mobile"};
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
-  group_help(*command,
-             {{"Most used", {"--out", "--plan", "--side", "--task"}},
-              {"Question", {"--age", "--sex", "--units", "--samples", "--accept-reference-contact"}},
-              {"Label maps", of_labels},
-              {"Images", label_file_names()},
-              {"Output", {"--case", "--note", "--date", "--crate", "--help"}}});
+  group_help(
+      *command,
+      {{"Most used", {"--out", "--plan", "--side", "--task"}},
+       {"Question", {"--age", "--sex", "--units", "--polygons", "--samples", "--accept-reference-contact"}},
+       {"Label maps", of_labels},
+       {"Images", label_file_names()},
+       {"Output", {"--case", "--note", "--date", "--crate", "--verbose", "--help"}}});
   command->callback([options, command] { hip_command(*options, *command); });
 }
 

@@ -55,6 +55,7 @@ std::optional<Anatomy> anatomy_of(const std::string& joint) {
 }
 
 void propose_from_meshes(const InitArguments& options) {
+  (void)io::mesh_format_of(options.fixed);
   if (options.mobile.empty()) throw UsageError("MOBILE: the mesh of the body that moves is needed");
   const io::JointProposal proposal = io::propose_joint(
       io::ProposalRequest{.fixed = options.fixed,
@@ -198,10 +199,10 @@ void add_init(CLI::App& app) {
   std::vector<std::string> of_models;
   for (const std::string& name : model_names()) of_models.push_back(name);
   group_help(*command, {{"Joint", {"--joint", "--side", "--units"}},
-                        {"Models", of_models},
+                        {"Output", {"--out", "--help"}},
                         {"Label maps", of_labels},
-                        {"Images", label_file_names()},
-                        {"Output", {"--out"}}});
+                        {"Models", of_models},
+                        {"Images", label_file_names()}});
   command->callback([options, command] { init_command(*options, *command); });
 }
 

@@ -101,18 +101,38 @@ std::optional<std::string> number_after_band(const std::vector<std::string>& wor
   return std::nullopt;
 }
 
+/// "sample hip": as it is typed.
+std::string full_name(const CLI::App& command) {
+  const CLI::App* above = command.get_parent();
+  return above && above->get_parent() ? full_name(*above) + " " + command.get_name() : command.get_name();
+}
+
+/// The command that is named, the whole program if none is.
+const CLI::App& named_command(const CLI::App& app) {
+  const auto below = app.get_subcommands();
+  return below.empty() ? app : named_command(*below.front());
+}
+
 /// An argument unknown to the command.
 std::string describe_unexpected(const std::string& word, const CLI::App& command) {
-  const std::string& name = command.get_name();
+  const std::string name = full_name(command);
   if (const auto below = commands_of(command); !below.empty() && !word.starts_with('-'))
     return fmt::format("{0}: there is no {0} '{1}'{2}; there are {3}", name, word,
                        condyle::core::did_you_mean(word, below), fmt::join(below, ", "));
+  if (word.starts_with("--sheet") || word.starts_with("--pdf"))
+    return fmt::format(
+        "{}: there is no option {}: condyle hip makes a sheet, and python3 -m condyle.plot sheet makes one "
+        "of its folder",
+        name, word.substr(0, word.find('=')));
   if (word == "-q" || word == "--quiet")
     return fmt::format(
         "{}: there is no option {}: answers go to standard output, and 2>/dev/null hides notes and progress",
         name, word);
   if (!word.starts_with('-'))
-    return fmt::format("{0}: '{1}' is one argument too many; condyle help {0} has them", name, word);
+    return fmt::format("{0}: '{1}' is one argument too many; {2}", name, word,
+                       word.find('=') != word.npos
+                           ? "several values of one option stand in quotes, \"a=1 b=2\""
+                           : "condyle help " + name + " has them");
   std::vector<std::string> options;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& known : option->get_lnames()) options.push_back("--" + known);
@@ -125,14 +145,13 @@ std::string describe_unexpected(const std::string& word, const CLI::App& command
 std::string describe(const CLI::ParseError& error, const CLI::App& app,
                      const std::vector<std::string>& words) {
   if (!app.get_subcommands().empty()) {
-    const CLI::App* command = app.get_subcommands().front();
-    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    const CLI::App& command = named_command(app);
     if (const auto number = number_after_band(words))
-      return fmt::format("{}: --band takes a number after an equals sign only: --band={}",
-                         command->get_name(), *number);
+      return fmt::format("{}: --band takes a number after an equals sign only: --band={}", full_name(command),
+                         *number);
     const auto unexpected = app.remaining(true);
-    if (!unexpected.empty()) return describe_unexpected(unexpected.front(), *command);
-    return command->get_name() + ": " + error.what();
+    if (!unexpected.empty()) return describe_unexpected(unexpected.front(), command);
+    return full_name(command) + ": " + error.what();
   }
   const std::vector<std::string> names = commands_of(app);
   const auto unknown = app.remaining();
@@ -148,18 +167,24 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
 std::vector<std::string> arguments(std::vector<std::string> words) {
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
-    words.emplace_back("--help");
+    if (std::find(words.begin(), words.end(), "--help-all") == words.end()) words.emplace_back("--help");
   }
   std::reverse(words.begin(), words.end());
   return words;
 }
 
-/// A name that is empty is mostly a variable of the shell that is not set, and would be taken for an option that is not given.
+/// A name that is empty is mostly a variable of the shell that is not set, and would be taken for an option that is not given. An option
+/// that stands where a value should is mostly one whose value was left out.
 void refuse_empty_names(CLI::App& command) {
   const auto why_not = [](const std::string& name) {
     return std::string(name.empty() ? "a name is needed, and this one is empty" : "");
   };
+  const auto is_value = [&command](const std::string& value) {
+    const bool is_option = value.starts_with("--") && command.get_option_no_throw(value);
+    return is_option ? "needs a value, and the option " + value + " comes after it" : std::string();
+  };
   for (CLI::Option* option : command.get_options()) {
+    option->check(is_value, "");
     const std::string& value = option->get_option_text();
     if (option->get_positional() || value.starts_with("FILE") || value.starts_with("FOLDER"))
       option->check(why_not);
@@ -190,6 +215,7 @@ int run(const std::vector<std::string>& words) {
   app.set_version_flag("-V,--version", "condyle " + std::string(condyle::version));
   app.require_subcommand(1);
   app.fallthrough();
+  app.set_help_all_flag("--help-all", "Print the help with every option");
   app.footer(std::string("Example: condyle sample hip --out sample\n"
                          "         condyle rom sample/hip.toml --band\n"
                          "         condyle help rom\n") +
@@ -219,8 +245,14 @@ int run(const std::vector<std::string>& words) {
   try {
     app.parse(reversed);
   } catch (const CLI::Success& request) {  // --help or --version
-    const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
-    cli::print(version ? app.version() + "\n" : app.help());
+    if (dynamic_cast<const CLI::CallForVersion*>(&request)) return cli::print(app.version() + "\n"), 0;
+    // Of a command that does not exist there is no help.
+    const CLI::App& command = named_command(app);
+    if (const auto unknown = app.remaining(true);
+        !unknown.empty() && !unknown.front().starts_with('-') && !commands_of(command).empty())
+      return fail({condyle::io::bad_usage, condyle::io::one_line(describe(request, app, words))});
+    const bool is_all = dynamic_cast<const CLI::CallForAllHelp*>(&request) != nullptr;
+    cli::print(app.help("", is_all ? CLI::AppFormatMode::All : CLI::AppFormatMode::Normal));
   } catch (const CLI::ParseError& error) {
     return fail({condyle::io::bad_usage, condyle::io::one_line(describe(error, app, words))});
   }

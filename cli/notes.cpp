@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <string>
 
 #include "answer.hpp"
@@ -22,6 +23,22 @@ void add_strict(CLI::App& command, Strictness& strictness, const std::string& or
 
 namespace {
 
+/// No number of the joint holds: docs/checks.md.
+bool is_grave(const JointNote& note) noexcept {
+  switch (note.code) {
+    case JointNoteCode::same_mesh:
+    case JointNoteCode::swapped_bodies:
+    case JointNoteCode::axes_not_upright:
+    case JointNoteCode::axes_turned:
+    case JointNoteCode::wrong_side:
+    case JointNoteCode::mirrored:
+    case JointNoteCode::bodies_disagree:
+      return true;
+    default:
+      return false;
+  }
+}
+
 template <class Note>
 void say(const std::vector<Note>& notes, const io::LoadedJoint& joint, Strictness strictness,
          std::string_view whose = {}) {
@@ -38,7 +55,9 @@ void say(const std::vector<Note>& notes, const io::LoadedJoint& joint, Strictnes
 
 std::vector<JointNote> noted(const io::LoadedJoint& joint, Strictness strictness, std::string_view whose) {
   std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
-  say(notes, joint, strictness, whose);
+  std::vector<JointNote> gravest_first = notes;
+  std::stable_partition(gravest_first.begin(), gravest_first.end(), is_grave);
+  say(gravest_first, joint, strictness, whose);
   return notes;
 }
 

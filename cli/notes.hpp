@@ -34,7 +34,8 @@ std::vector<JointNote> noted(const io::LoadedJoint& joint, Strictness strictness
 template <class Note>
 void note_all(const std::vector<Note>& notes, std::string_view whose = {}) {
   for (const Note& each : notes)
-    note(std::string(whose) + std::string(name_of(each.code)) + ": " + each.text);
+    note(std::string(whose) + std::string(name_of(each.code)) + ": " + each.text,
+         std::string(name_of(each.code)));
 }
 
 /// The same of notes on layers, loads and motions, once there is an answer.

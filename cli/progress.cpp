@@ -59,14 +59,24 @@ Progress::~Progress() {
 }
 
 void Progress::update(std::size_t done, std::size_t total) {
+  update(done, total,
+         fmt::format("{} of {} ({:.0f} %)", done, total,
+                     std::floor(100 * static_cast<double>(done) / static_cast<double>(total))));
+}
+
+void Progress::update(double share) {
+  constexpr double whole = 1e6;
+  update(static_cast<std::size_t>(whole * share), static_cast<std::size_t>(whole),
+         fmt::format("{:.0f} %", std::floor(100 * share)));
+}
+
+void Progress::update(std::size_t done, std::size_t total, const std::string& words) {
   const auto now = now_();
   if (now < next_ || done == total) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const auto left = remaining_seconds(elapsed, done, total);
   const std::string line =
-      fmt::format("{}: {} of {} ({:.0f} %){}", what_, done, total,
-                  std::floor(100 * static_cast<double>(done) / static_cast<double>(total)),
-                  left ? fmt::format(", about {} left", duration_text(*left)) : "");
+      fmt::format("{}: {}{}", what_, words, left ? fmt::format(", about {} left", duration_text(*left)) : "");
   if (place_ == ProgressPlace::terminal) {
     show_(fmt::format("{}{}", wipe_line, line));
     next_ = now + between_updates;

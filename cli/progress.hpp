@@ -42,8 +42,12 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(std::size_t done, std::size_t total);
+  /// Of all the work, 0 to 1.
+  void update(double share);
 
  private:
+  void update(std::size_t done, std::size_t total, const std::string& words);
+
   std::string what_;
   ProgressPlace place_;
   Now now_;

@@ -31,6 +31,7 @@ struct RomArguments : JointArguments {
   std::optional<double> allow_depth_mm;
   std::optional<std::string> crate_date;
   FollowArguments follow;
+  io::TextForm text = io::TextForm::brief;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   RangeArguments range;
   io::LimitFile limits;  ///< no path: none
@@ -108,6 +109,7 @@ RangeAnswer answer_of(const RomArguments& options, const io::LoadedJoint& loaded
 
 void rom_command(const RomArguments& options, const CLI::App& command) {
   if (options.crate_date) io::check_crate_date(*options.crate_date);
+  say_as(options.text);
   const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_of(options);
   std::vector<motion::Motion> motions = Case(loaded).motions(names_in(options.motions));
@@ -147,7 +149,7 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   }
   if (!options.out.empty())
     say_written(io::write_rom(options.out, result, options.vtp_encoding, options.crate_date));
-  print(options.form == AnswerForm::json ? io::rom_json(result) : io::rom_text(result));
+  print(options.form == AnswerForm::json ? io::rom_json(result) : io::rom_text(result, options.text));
 }
 
 }  // namespace
@@ -199,6 +201,7 @@ void add_rom(CLI::App& app) {
   add_person(*command, options->person);
   add_where(*command, *options);
   add_json(*command, options->form);
+  add_verbose(*command, options->text);
   add_strict(*command, options->strictness, or_contact);
   group_help(*command,
              {{"Most used", {"--motion", "--band", "--map", "--out", "--json"}},
@@ -209,7 +212,7 @@ void add_rom(CLI::App& app) {
               {"Contact",
                {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--allow-depth"}},
               {"For other programs", {"--write-limits", "--limits", "--stop", "--model"}},
-              {"Output", {"--crate", "--frame", "--ascii", "--strict", "--help"}}});
+              {"Output", {"--verbose", "--crate", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { rom_command(*options, *command); });
 }
 

@@ -9,6 +9,7 @@
 #include "choice.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "core/counted.hpp"
 #include "help_formatter.hpp"
 #include "io/result/sample_files.hpp"
 #include "sample_implants.hpp"
@@ -211,7 +212,8 @@ void sample_command(const CohortOptions& options) {
       [&](const Control& control) { return io::write_sample_cohort(options.out, cohort, control); },
       Writes::files);
   say_written(written);
-  print(fmt::format("{} hips, for condyle study {}\n", cohort.n, written.front().string()));
+  print(fmt::format("{}, for condyle study {}\n", core::counted(cohort.n, "hip", "hips"),
+                    written.front().string()));
 }
 
 void add_cohort(CLI::App& sample) {

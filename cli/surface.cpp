@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -7,11 +9,13 @@
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
+#include "io/image/label_name.hpp"
 #include "io/result/label_result.hpp"
 #include "label_options.hpp"
 #include "notes.hpp"
@@ -27,10 +31,15 @@ struct SurfaceArguments {
 };
 
 void surface_command(const SurfaceArguments& options, const CLI::App& command) {
-  io::check_written_mesh(options.out);
-  const std::filesystem::path read[] = {options.image};
-  io::check_output_file(options.out, read);
+  if (!options.out.empty()) {
+    io::check_written_mesh(options.out);
+    const std::filesystem::path read[] = {options.image};
+    io::check_output_file(options.out, read);
+  }
   const io::LabelMap map = io::read_labels(options.image, options.labels.file);
+  if (options.out.empty())
+    throw UsageError(
+        fmt::format("--out FILE and --label are needed: in {}, {}", options.image, io::labels_there(map)));
   const io::LabelBoneRequest request{options.label, options.labels.task, options.labels.surface};
   const io::LabelBone bone = with_progress(
       [&](const Control& control) { return io::bone_of(map, options.image, request, control); });
@@ -62,9 +71,8 @@ void add_surface(CLI::App& app) {
                    "The label of the bone: its number, or its name if the file or --task has names. Without "
                    "it the only label")
       ->option_text("LABEL");
-  command->add_option("-o,--out", options->out, "Write the surface here, .ply or .vtp")
-      ->option_text("FILE")
-      ->required();
+  command->add_option("-o,--out", options->out, "Write the surface here, .ply or .vtp; required")
+      ->option_text("FILE");
   add_json(*command, options->form);
   add_label_surface(*command, options->labels);
   add_label_file(*command, options->labels);

@@ -470,7 +470,8 @@ class Joint(DescribedJoint):
     def range_of_motion(self, motions: Optional[Sequence[MotionLike]] = None, *, bearing: BearingRule = "leave_out",
                         bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False,
                         exclude_reference_contacts: Union[bool, int] = False,
-                        translation_mm: Optional[ArrayLike] = None, clock: ClockPlane = "sagittal") -> RangeOfMotion:
+                        translation_mm: Optional[ArrayLike] = None, clock: ClockPlane = "sagittal",
+                        **other: object) -> RangeOfMotion:
         """How far the joint turns before bone meets bone, or a ligament of the joint ends it: exact limits of these motions, of all known ones if not
         given.
 
@@ -500,6 +501,10 @@ class Joint(DescribedJoint):
         >>> joint.range_of_motion(["flexion", "internal_rotation_at_90_flexion"])
         RangeOfMotion(flexion 134.8, internal_rotation_at_90_flexion 52.0)
         """
+        if {"age", "sex"} & set(other):
+            raise UsageError('range_of_motion: age and sex are of the joint: Joint(..., person={"age": 39})')
+        if other:
+            raise TypeError(f"range_of_motion() got an unexpected keyword argument '{next(iter(other))}'")
         rings: Optional[int] = None
         if exclude_reference_contacts is True:
             rings = 2

@@ -2,9 +2,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "answer/check_gains.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "plan/check_target.hpp"
 
 namespace condyle {
 namespace {
@@ -367,12 +369,23 @@ std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> mot
                                              std::span<const NamedReach> named) {
   std::vector<plan::ReachTarget> targets;
   for (const auto& [motion, reach, is_gain] : named)
-    targets.push_back({motion::motion_named(motions, motion), reach, is_gain});
+    plan::check_target(
+        targets.emplace_back(plan::ReachTarget{motion::motion_named(motions, motion), reach, is_gain}));
   return targets;
 }
 
 std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions, std::string_view text) {
   return reach_targets(motions, parse_reach(text));
+}
+
+void check_gains(const Case& of, const RangeRequest& range, const ResectionRequest& request) {
+  plan::ResectionOptions options = request.resection;
+  options.range = range.range;
+  options.range.overlap.reference_pose = of.placement.reference_pose.angles;
+  try {
+    (void)plan::with_gains_resolved(of.joint, options);
+  } catch (const MeshError&) {  // of limits: those who compute them report it
+  }
 }
 
 std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionRequest& request,

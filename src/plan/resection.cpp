@@ -12,6 +12,7 @@
 #include "kinematics/posed_parts.hpp"
 #include "motion/rom/ligament_limits.hpp"
 #include "plan/bone_cut.hpp"
+#include "plan/check_target.hpp"
 #include "plan/planned.hpp"
 
 namespace condyle::plan {
@@ -53,6 +54,16 @@ std::string_view name_of(KeptBy by) noexcept {
   return "marked";
 }
 
+void check_target(const ReachTarget& target) {
+  const auto& [motion, reach, is_gain] = target;
+  if (is_gain && !(reach > Angle()))
+    throw UsageError("resection: " + motion.name + " is to gain " + degrees(reach) +
+                     " degrees: a gain is above 0");
+  if (!is_gain && !(reach > Angle() && reach <= motion.range))
+    throw UsageError("resection: " + motion.name + " cannot reach " + degrees(reach) +
+                     " degrees: its range is above 0 and at most " + degrees(motion.range));
+}
+
 void check_resection(const Joint& joint, const ResectionOptions& request) {
   if (request.targets.empty()) throw UsageError("resection: no motion has a target to reach");
   if (joint.implant)
@@ -60,12 +71,9 @@ void check_resection(const Joint& joint, const ResectionOptions& request) {
   std::set<std::string_view> names;
   for (const ReachTarget& target : request.targets) {
     const motion::Motion& motion = target.motion;
-    const Angle reach = target.reach;
     motion::check_motion(motion, joint.kind);
     if (!names.insert(motion.name).second) throw UsageError("resection: " + motion.name + " has two targets");
-    if (!(reach > Angle() && reach <= motion.range))
-      throw UsageError("resection: " + motion.name + " cannot reach " + degrees(reach) +
-                       " degrees: its range is above 0 and at most " + degrees(motion.range));
+    check_target(target);
   }
   if (!(request.fixed_share >= 0 && request.fixed_share <= 1))
     throw UsageError("resection: the share of the fixed body must be from 0 to 1");
@@ -104,7 +112,8 @@ ResectionOptions with_gains_resolved(const Joint& joint, const ResectionOptions&
                        degrees(target.motion.range) + " degrees: it has nothing to gain");
     if (end.turned + target.reach > target.motion.range)
       throw UsageError("resection: " + name + " ends at " + degrees(end.turned) + " degrees, and " +
-                       degrees(target.reach) + " more are beyond its range, " + degrees(target.motion.range));
+                       degrees(target.reach) + " more are " + degrees(end.turned + target.reach) +
+                       ", beyond its range, " + degrees(target.motion.range));
     target = {target.motion, end.turned + target.reach};
   }
   return resolved;

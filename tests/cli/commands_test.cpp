@@ -145,7 +145,7 @@ TEST_F(Command, ABadFileEndsWithThree) {
   expect_refused(3, "inspect 'line\nbreak.ply'", "line break.ply");
   expect_refused(3, "inspect .", ".");
   expect_refused(3, "frame none.toml", "none.toml");
-  expect_refused(3, "inspect right_hip.toml", "right_hip.toml: is a joint file, not a mesh: condyle frame ");
+  expect_refused(3, "inspect right_hip.toml", "right_hip.toml: is a joint file, not a mesh: condyle rom ");
   expect_refused(3, "frame .", ".");
   write_joint("\"right\"", "\"up\"");
   expect_refused(3, "frame right_hip.toml",
@@ -245,7 +245,7 @@ TEST_F(Command, HelpBeginsWithFiveOptionsAndLeavesNoneWithoutAGroup) {
   for (const char* command : {"depth", "rom", "load", "motion", "measure", "resect", "implant", "picture",
                               "report", "sample hip", "sample cartilages", "study"}) {
     SCOPED_TRACE(command);
-    std::istringstream help(run(std::string(command) + " --help").out);
+    std::istringstream help(run(std::string(command) + " --help-all").out);
     std::map<std::string, std::set<std::string>> options;
     std::set<std::string> all;
     std::string group;

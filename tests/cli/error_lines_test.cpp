@@ -121,7 +121,7 @@ TEST_F(ErrorLines, OfTwistedPolygonsSayHowTheyAreRead) {
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_NE(
       ran.out.find(
-          "split 1 polygons into triangles, 1 of them by a guess: their corners are up to 1 off one plane"),
+          "split 1 polygon into triangles, 1 of them by a guess: their corners are up to 1 off one plane"),
       std::string::npos)
       << ran.out;
 }
@@ -185,7 +185,7 @@ TEST_F(ErrorLines, OfAnEmptyNameNameItsOption) {
   expect_begins("touch arm.ply post.ply --matrix ''", 2, "touch: --matrix: a name is needed");
   expect_begins("touch arm.ply post.ply --pose ''", 2, "pose: a matrix begins with a number");
   expect_begins("touch '' post.ply", 2, "touch: A: a name is needed");
-  expect_begins("sample hip --out ''", 2, "hip: --out: a name is needed");
+  expect_begins("sample hip --out ''", 2, "sample hip: --out: a name is needed");
   expect_begins("rom arm.toml --write-limits ''", 2, "rom: --write-limits: a name is needed");
 }
 

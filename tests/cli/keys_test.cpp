@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 /// The command's long options.
 std::set<std::string> options_of(const fs::path& folder, const std::string& command) {
-  const std::string help = run_condyle(folder, "help " + command).out;
+  const std::string help = run_condyle(folder, "help --help-all " + command).out;
   std::set<std::string> names;
   const std::regex option("\n  (?:-[a-zA-Z],)?(--[a-z-]+)");
   for (auto at = std::sregex_iterator(help.begin(), help.end(), option); at != std::sregex_iterator(); ++at)

@@ -27,7 +27,7 @@ TEST_F(Motion, FramesThatTheReachCutsOffAreCounted) {
   EXPECT_EQ(cut_off("--reach 0.2 --load"), 2);
   EXPECT_EQ(cut_off("--reach 0.3"), 1);
   const std::string text = run("motion cup.toml --motion lower.csv --reach 0.3").out;
-  EXPECT_NE(text.find("in 1 frames the reach of 0.3 mm cuts off rays"), text.npos) << text;
+  EXPECT_NE(text.find("in 1 frame the reach of 0.3 mm cuts off rays"), text.npos) << text;
 }
 
 /// Rays from the top of the ball go through it and, with a long reach, to the inner side of the open cup.

@@ -49,6 +49,13 @@ TEST(Progress, SaysNothingAboutWorkOfLessThanTwoSeconds) {
   }
 }
 
+TEST(Progress, OfAllTheWorkIsAShare) {
+  Stage stage;
+  Progress progress = stage.progress(ProgressPlace::log);
+  stage.now += 10s, progress.update(0.25);
+  EXPECT_EQ(stage.shown, std::vector<std::string>{"points: 25 %, about 30 s left\n"});
+}
+
 TEST(Progress, GivesALogALineEveryTenSeconds) {
   Stage stage;
   {

@@ -13,7 +13,7 @@ that folder, or else shared/data beside the repository, is there; with CI=true a
 - after them, a fenced block of `text` is what the last command prints; its line `…` stands for any number of lines.
 
 A line with a placeholder (JOINT, FILE, `[--option]`) is a synopsis: all of a command on a page together name the options
-of its --help, no more and no fewer. Every option that stands as code anywhere must be one. Comments of the page say the
+of its --help-all, no more and no fewer. Every option that stands as code anywhere must be one. Comments of the page say the
 rest, each on a line of its own:
 
     <!-- run: no, 20 minutes -->       the next block is not run
@@ -247,7 +247,7 @@ class Page:
 
     def check_synopses(self) -> None:
         for command, (line, named) in self.synopses.items():
-            left_out = self.help_of(command) - named - {"--help", "--version"}
+            left_out = self.help_of(command) - named - {"--help", "--help-all", "--version"}
             if left_out:
                 self.errors.append(str(self.wrong(line, f"condyle {command} also has {', '.join(sorted(left_out))}")))
 
@@ -278,7 +278,7 @@ class Page:
 def help_reader(condyle: Path, has_module: bool):
     """The options of a command or of condyle.plot ("plot"), of all of them for None."""
     def help_of(*words) -> str:
-        return subprocess.run([*words, "--help"], capture_output=True, text=True, check=True).stdout
+        return subprocess.run([*words, "--help-all" if words[1:2] and words[0] == condyle else "--help"], capture_output=True, text=True, check=True).stdout
 
     def defined(*words) -> "set[str]":
         return set(re.findall(r"^  (?:-\w, ?)?(--[a-z][a-z-]*)", help_of(*words), re.M))

@@ -117,7 +117,8 @@ TEST(BadMeshFile, AJointFileIsNamedAsThat) {
   const Folder folder;
   const std::string joint = (folder / "hip.toml").string();
   std::ofstream(joint) << "condyle = 1\n";
-  EXPECT_EQ(complaint(joint), joint + ": is a joint file, not a mesh: condyle frame " + joint +
+  EXPECT_EQ(complaint(joint), joint + ": is a joint file, not a mesh: condyle rom " + joint +
+                                  " has its limits, condyle frame " + joint +
                                   " shows its bodies; .stl, .obj, .ply, .vtp and .vtk are read");
 }
 
@@ -303,11 +304,14 @@ TEST(BadMeshFile, VerticesWithoutTrianglesAreNoMesh) {
 
 TEST(BadMeshFile, PolygonsThatAreNoTrianglesAreRefusedByName) {
   EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "4 0 1 2 1"), io::MeshFormat::ply),
-            "bone: face 0 has 4 corners: only triangles are read, unless polygons are to be split");
+            "bone: face 0 has 4 corners: only triangles are read, unless polygons are to be split "
+            "(--polygons split)");
   EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 1 2 3\nf 1 2 3 1"), io::MeshFormat::obj),
-            "bone: line 5: face 1 has 4 corners: only triangles are read, unless polygons are to be split");
+            "bone: line 5: face 1 has 4 corners: only triangles are read, unless polygons are to be split "
+            "(--polygons split)");
   EXPECT_EQ(complaint(with(with(vtp_text, "0 1 2", "0 1 2 1"), ">3<", ">4<"), io::MeshFormat::vtp),
-            "bone: polygon 0 has 4 corners: only triangles are read, unless polygons are to be split");
+            "bone: polygon 0 has 4 corners: only triangles are read, unless polygons are to be split "
+            "(--polygons split)");
   EXPECT_EQ(complaint(with(vtp_text, "NumberOfStrips=\"0\"", "NumberOfStrips=\"1\""), io::MeshFormat::vtp),
             "bone: no array 'Strips offsets'");
   EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4\n3 0 1 2", "POLYGONS 1 3\n2 0 1"), io::MeshFormat::vtk),

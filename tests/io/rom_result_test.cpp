@@ -173,24 +173,22 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
                                                   .bearing = {some_bearing(), {}},
                                                   .bearing_rule = motion::BearingRule::leave_out,
                                                   .caveats = {"left out: nothing"}})));
-  ASSERT_EQ(lines.size(), 17u);
+  ASSERT_GT(lines.size(), 6u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
-  EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
-  EXPECT_EQ(lines[3], "  left out: nothing");
-  EXPECT_EQ(lines[4], "  zero: given by the reference pose stated");
+  EXPECT_EQ(lines[1], "  left out: nothing") << "a bearing surface with a rim is as usual";
+  EXPECT_EQ(lines[2], "  zero: given by the reference pose stated");
   // Column of the first letter of the reasons; an umlaut is two bytes and one letter, a dash three.
-  EXPECT_NE(lines[5].find("clock: hours in the sagittal plane"), std::string::npos) << lines[5];
-  const std::size_t column = lines[6].find("ended by");
-  EXPECT_EQ(lines[7].find("impingement"), column);
-  EXPECT_EQ(lines[8].find("no contact in range"), column + 2);
-  EXPECT_EQ(lines[9].find("in contact at start"), column + 1);
-  EXPECT_NE(lines[7].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
-  EXPECT_TRUE(lines[7].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[7];
-  EXPECT_NE(lines[8].find(" >40 "), std::string::npos) << lines[8];
-  const std::size_t living = lines[6].find("living hips");
-  EXPECT_EQ(lines[7].find("clinical 120 "), living)
-      << "it starts from adduction, which the cadavers' did not: " << lines[7];
-  EXPECT_EQ(lines[8].find("groups' means 23–56"), living) << lines[8];
+  const std::size_t column = lines[3].find("ended by");
+  EXPECT_EQ(lines[4].find("impingement"), column);
+  EXPECT_EQ(lines[5].find("no contact in range"), column + 2);
+  EXPECT_EQ(lines[6].find("in contact at start"), column + 1);
+  EXPECT_NE(lines[4].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
+  EXPECT_TRUE(lines[4].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[4];
+  EXPECT_NE(lines[5].find(" >40 "), std::string::npos) << lines[5];
+  const std::size_t living = lines[3].find("living hips");
+  EXPECT_EQ(lines[4].find("clinical 120 "), living)
+      << "it starts from adduction, which the cadavers' did not: " << lines[4];
+  EXPECT_EQ(lines[5].find("groups' means 23–56"), living) << lines[5];
 }
 
 TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
@@ -198,8 +196,10 @@ TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
   const std::vector<motion::MotionLimit> limits = some_limits();
   motion::BearingSurface bearing = some_bearing();
   const auto text = [&] {
-    return io::rom_text(shown({.joint = joint, .limits = limits, .bearing = {bearing, {}}}));
+    return io::rom_text(shown({.joint = joint, .limits = limits, .bearing = {bearing, {}}}),
+                        io::TextForm::whole);
   };
+  EXPECT_NE(text().find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << text();
   EXPECT_NE(text().find("(radius 24.50 mm, rim 2.25 mm from it)"), std::string::npos) << text();
   bearing.rim_gap_mm.reset();
   EXPECT_NE(text().find("(radius 24.50 mm, no rim was found)"), std::string::npos) << text();
@@ -275,8 +275,7 @@ TEST(MotionCaveats, AreOfMotionsThatTurnAsTheirNameSaysAndOfHipsOnly) {
 
 TEST(Scope, IsOsseousOnlyWhereAllMeshesAreBones) {
   Joint joint = arm_and_post();
-  EXPECT_TRUE(
-      io::scope_text(joint).starts_with("osseous contact of the meshes given; soft tissue is not modelled"));
+  EXPECT_TRUE(io::scope_text(joint).starts_with("osseous contact only; soft tissue is not modelled"));
   const std::size_t vertices = joint.mobile.mesh.vertices().size();
   const std::size_t triangles = joint.mobile.mesh.triangles().size();
   joint.mobile.parts = {
@@ -326,7 +325,7 @@ TEST(RomText, HasALineForEachCaveatWithItsMotions) {
   for (std::size_t i = 0; i < 3; ++i)
     limits[i].motion = motion::motion_named(
         motion::hip_motions(), (std::array{"extension", "internal_rotation_at_90_flexion", "fadir"})[i]);
-  const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}));
+  const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}), io::TextForm::whole);
   EXPECT_NE(text.find("a labrum, which no mesh is called, took 18 deg off them (median) (PMC7754612):\n"
                       "      internal_rotation_at_90_flexion, fadir\n"),
             std::string::npos)
@@ -377,7 +376,7 @@ TEST(BoneReference, IsShortFromTheMeanOfHipsWithACamDown) {
                                             {"is_short", is_short},
                                             {"source", "Audenaert 2012, doi 10.1177/0363546512441328"}}));
     EXPECT_TRUE(json["normal_range_deg"].is_null());
-    const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}));
+    const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}), io::TextForm::whole);
     EXPECT_NE(text.find("27.9 deg in 10 simulated healthy hips"), text.npos) << text;
     EXPECT_EQ(text.find("as early as in hips with a cam") != text.npos, is_short) << text;
   }

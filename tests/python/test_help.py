@@ -11,8 +11,8 @@ import pytest
 COMMAND = os.environ.get("CONDYLE_COMMAND", "condyle")
 
 
-def help_of(*words: str) -> str:
-    return subprocess.run([COMMAND, *words, "--help"], capture_output=True, text=True, check=True).stdout
+def help_of(*words: str, all: bool = False) -> str:
+    return subprocess.run([COMMAND, *words, "--help-all" if all else "--help"], capture_output=True, text=True, check=True).stdout
 
 
 def subcommands(*words: str) -> list[str]:
@@ -37,6 +37,10 @@ def on_path(command, tmp_path_factory, monkeypatch):
 def test_it_fits_a_terminal_and_has_an_example(words):
     text = help_of(*words.split())
     assert max(map(len, text.splitlines())) <= 100
+    assert len(text.splitlines()) <= 60
+    if words not in ("", "sample"):  # theirs has that of the commands below
+        rest = re.search("^More options by --help-all: ", text, re.M)
+        assert bool(rest) == (len(help_of(*words.split(), all=True).splitlines()) > 60)
     assert re.search("^Example: condyle ", text, re.M)
 
 
@@ -52,7 +56,7 @@ def test_its_examples_run_as_printed_in_an_empty_folder(words, on_path, tmp_path
 
 def test_options_of_one_name_say_what_they_mean_in_each_command():
     def says(command, *texts):
-        words = " ".join(help_of(command).split())
+        words = " ".join(help_of(command, all=True).split())
         return [text in words for text in texts]
 
     contact, right, lateral = "or with its layers, load or motion", "and to the right, of a left joint too", "to the left of a left one"

@@ -121,7 +121,7 @@ def test_polygons_are_split_where_it_is_asked_for(tmp_path):
     with pytest.raises(condyle.FileError, match="only triangles"):
         condyle.read_mesh(write(0))
     flat = condyle.read_mesh(write(0), polygons="split")
-    assert len(flat.triangles) == 6 and list(flat.processing) == ["split 1 polygons into triangles"]
+    assert len(flat.triangles) == 6 and list(flat.processing) == ["split 1 polygon into triangles"]
     with pytest.raises(condyle.FileError, match="twisted"):
         condyle.read_mesh(write(0.25), polygons="split")
     twisted = condyle.read_mesh(write(0.25), polygons="guess")

@@ -80,13 +80,6 @@ std::string listed(const std::vector<std::string>& words) {
   return words.size() > most ? fmt::format("{} and {} more", out, words.size() - most) : out;
 }
 
-std::string numbers_of(const LabelMap& map) {
-  std::vector<std::string> words;
-  for (const auto label : map.labels)
-    if (label != 0) words.push_back(fmt::format("{}", label));
-  return words.empty() ? "the image holds no label other than 0" : "the image holds " + listed(words);
-}
-
 /// Layers in which some voxel has the label.
 std::vector<std::size_t> layers_with(const LabelMap& map, std::uint32_t label) {
   std::vector<std::size_t> layers;
@@ -136,7 +129,7 @@ ChosenLabel choose_number(const LabelMap& map, const NumberedLabel& number,
                           std::optional<LabelTask> task = {}) {
   const auto layers = layers_with(map, number.label);
   if (layers.empty())
-    throw UsageError(fmt::format("no voxel has the label {}: {}", number.label, numbers_of(map)));
+    throw UsageError(fmt::format("no voxel has the label {}: {}", number.label, labels_there(map)));
   std::size_t layer = layers.front();
   if (number.layer) {
     layer = *number.layer;
@@ -220,12 +213,19 @@ ChosenLabel choose_table_entry(const LabelMap& map, const TableEntry& entry, Lab
   if (names.empty())
     throw UsageError(
         fmt::format("{}: the file names no labels: choose a number, or say of which task the names are; {}",
-                    io::in_quotes(text), numbers_of(map)));
+                    io::in_quotes(text), labels_there(map)));
   throw UsageError(fmt::format("no label is called {}{}: there are {}", io::in_quotes(text),
                                core::did_you_mean(text, names), listed(quoted)));
 }
 
 }  // namespace
+
+std::string labels_there(const LabelMap& map) {
+  std::vector<std::string> words;
+  for (const auto label : map.labels)
+    if (label != 0) words.push_back(fmt::format("{}", label));
+  return words.empty() ? "the image holds no label other than 0" : "the image holds " + listed(words);
+}
 
 std::string name_of_label(const LabelMap& map, std::size_t layer, std::uint32_t label,
                           std::optional<LabelTask> task) {

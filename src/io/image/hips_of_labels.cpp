@@ -90,14 +90,29 @@ bool is_of_both_sides(const LabelMap& map, const std::string& label, std::option
   return pieces.size() > 1 && mesh::is_large_piece(pieces[1], pieces[0]);
 }
 
+/// "; --task total would name 76 femur_right, 78 hip_right": of the tables of TotalSegmentator those by which the map has a hip.
+std::string fitting_tables(const LabelMap& map, std::span<const LabelSummary> present) {
+  std::string text;
+  for (const LabelTask task : {LabelTask::total, LabelTask::total_v1, LabelTask::total_mr}) {
+    const auto pelves = labels_called(map, present, pelvis_words, "", task),
+               femora = labels_called(map, present, femur_words, "", task);
+    if (pelves.empty() || femora.empty()) continue;
+    text += fmt::format("; --task {} would name {} and {}", name_of(task), femora.front().label,
+                        pelves.front().label);
+  }
+  return text;
+}
+
 LabelHips hips_in(const LabelMap& map, std::string_view file, const HipLabels& wanted) {
   const std::vector<LabelSummary> present = summaries_of(map);
   const auto called = [&](std::span<const std::string_view> words, const std::string& chosen,
                           std::string_view what) {
     auto found = labels_called(map, present, words, chosen, wanted.task);
     if (found.empty())
-      throw UsageError(fmt::format(
-          "no label is called a {}: --task names labels by a table, --fixed and --mobile by number", what));
+      throw UsageError(
+          fmt::format("no label is called a {}{}: {}{}; --fixed and --mobile take numbers", what,
+                      wanted.task ? fmt::format(" in TotalSegmentator's {}", name_of(*wanted.task)) : "",
+                      labels_there(map), fitting_tables(map, present)));
     return found;
   };
   std::vector<Named> pelves, femora;

@@ -24,7 +24,9 @@ std::string only_label(const LabelMap& map, std::string_view file) {
   std::optional<LabelSummary> only;
   for (const LabelSummary& summary : summaries_of(map)) {
     if (summary.label == 0) continue;
-    if (only) throw UsageError(fmt::format("{}: has several labels: say which one is meant", file));
+    if (only)
+      throw UsageError(fmt::format("{}: has several labels: --label says which one is meant; {}", file,
+                                   labels_there(map)));
     only = summary;
   }
   if (!only) throw MeshError(fmt::format("{}: no voxel has a label above 0", file));

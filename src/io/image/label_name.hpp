@@ -13,4 +13,7 @@ namespace condyle::io {
 std::string name_of_label(const LabelMap& map, std::size_t layer, std::uint32_t label,
                           std::optional<LabelTask> task);
 
+/// "the image holds 76, 78": its labels, the first ones of many.
+std::string labels_there(const LabelMap& map);
+
 }  // namespace condyle::io

@@ -89,6 +89,16 @@ std::optional<TriMesh> half_at(const TriMesh& whole, const Sphere& head) {
   return half;
 }
 
+/// Whether the bones make a hip with their roles exchanged.
+bool are_exchanged(const TriMesh& fixed, const TriMesh& mobile, const ProposalFacts& facts) {
+  const auto hip = kinematics::hip_anatomy(mobile, fixed);
+  if (!hip) return false;
+  return facts.axes_by ? kinematics::side_in(lps_axes, *hip).side.has_value()
+                       : !kinematics::hip_axes(mobile, *hip, {}).agreeing.empty();
+}
+
+constexpr const char* exchanged = "are the bones exchanged? The hip bone comes first, then the femur";
+
 /// `stated_per_mm`: a piece of a mesh is found by a centre in figures, in the unit of the mesh.
 void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>& hip,
                 std::optional<double> stated_per_mm) {
@@ -122,7 +132,10 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
       fixed.is_piece_at_joint = true;
       hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
     }
-  add_kind(lines, hip);
+  if (!hip && are_exchanged(fixed.mesh, mobile.mesh, facts))
+    lines.missing("kind", "\"ball\" or \"hinge\"", exchanged);
+  else
+    add_kind(lines, hip);
 
   const std::optional<Side> given = facts.side ? std::optional(facts.side->value) : std::nullopt;
   kinematics::HipAxes axes{{}, "no head was found to infer them from", {}};
@@ -135,6 +148,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   } else if (hip) {
     axes = kinematics::hip_axes(fixed.mesh, *hip, given);
     if (axes.agreeing.size() == 1) side = axes.agreeing[0].side;
+    if (axes.agreeing.empty() && are_exchanged(fixed.mesh, mobile.mesh, facts)) axes.why_none = exchanged;
   }
   const bool contradicted = facts.axes_by && given && side && *given != *side;
   const std::optional<Side> stated = contradicted ? std::nullopt : given ? given : side;
@@ -176,7 +190,12 @@ JointProposal propose_joint(const ProposalRequest& request) {
   if (request.side) facts.side = {*request.side, "given"};
   if (request.units) facts.units = {*request.units, "given"};
   facts.anatomy = request.anatomy;
-  return io::proposal_of(body(request.fixed), body(request.mobile), facts);
+  ProposedBody fixed = body(request.fixed), mobile = body(request.mobile);
+  if (fixed.mesh.vertices == mobile.mesh.vertices && fixed.mesh.triangles == mobile.mesh.triangles)
+    throw UsageError(
+        fmt::format("{} and {} are the same mesh: two bones are needed, the one that stays first",
+                    request.fixed.string(), request.mobile.string()));
+  return io::proposal_of(std::move(fixed), std::move(mobile), facts);
 }
 
 }  // namespace condyle::io

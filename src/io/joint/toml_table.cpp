@@ -44,6 +44,7 @@ std::string TomlTable::full(std::string_view key) const {
 }
 
 bool TomlTable::has(std::string_view key) const {
+  looked_for_.emplace(key);
   return table_->contains(key);
 }
 
@@ -213,9 +214,11 @@ void TomlTable::fail_missing(std::string_view key, std::string_view needed_for) 
 void TomlTable::finish() const {
   for (const auto& [key, node] : *table_)
     if (!known_.contains(key.str())) {
-      const std::vector<std::string> names(known_.begin(), known_.end());
+      std::set<std::string, std::less<>> all = known_;
+      all.insert(looked_for_.begin(), looked_for_.end());
+      const std::vector<std::string> names(all.begin(), all.end());
       fail(key.str(), fmt::format("unknown key{}; known here: {}", core::did_you_mean(key.str(), names),
-                                  fmt::join(known_, ", ")));
+                                  fmt::join(names, ", ")));
     }
 }
 

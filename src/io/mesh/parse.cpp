@@ -131,7 +131,7 @@ void append_strip(RawMesh& raw, std::span<const std::int64_t> corners) {
 
 std::string refused_face(std::string_view kind, std::uint64_t number, std::size_t corners) {
   return fmt::format("{} {} has {} corners: only triangles are read{}", kind, number, corners,
-                     corners > 3 ? ", unless polygons are to be split" : "");
+                     corners > 3 ? ", unless polygons are to be split (--polygons split)" : "");
 }
 
 void check_ends(std::span<const std::int64_t> ends, const Source& source) {

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "condyle/error.hpp"
+#include "core/counted.hpp"
 #include "io/file/in_quotes.hpp"
 
 namespace condyle::io {
@@ -33,7 +34,7 @@ PolygonRule polygon_rule_named(std::string_view word) {
 
 std::string split_text(std::size_t split, std::size_t guessed, double guessed_within) {
   if (split == 0) return {};
-  std::string text = fmt::format("split {} polygons into triangles", split);
+  std::string text = fmt::format("split {} into triangles", core::counted(split, "polygon", "polygons"));
   if (guessed > 0)
     text += fmt::format(", {} of them by a guess: their corners are up to {:.2g} off one plane", guessed,
                         guessed_within);

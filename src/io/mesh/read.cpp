@@ -104,16 +104,22 @@ MeshFormat mesh_format_of(const std::filesystem::path& path) {
   if (const auto format = io::mesh_format_named(path)) return *format;
   const auto extension = io::lower_case(path.extension().string());
   if (extension == ".toml")
-    throw FileError(
-        fmt::format("{0}: is a joint file, not a mesh: condyle frame {0} shows its bodies; .stl, .obj, .ply, "
-                    ".vtp and .vtk are read",
-                    path.string()));
+    throw FileError(fmt::format(
+        "{0}: is a joint file, not a mesh: condyle rom {0} has its limits, condyle frame {0} shows "
+        "its bodies; .stl, .obj, .ply, .vtp and .vtk are read",
+        path.string()));
+  if (extension == ".osim")
+    throw FileError(fmt::format(
+        "{0}: is a model of OpenSim, not a mesh: condyle init {0} --joint NAME makes a joint file of "
+        "one of its joints",
+        path.string()));
   io::refuse_unread_image(path);
   if (is_image(io::lower_case(path.filename().string())))
-    throw FileError(fmt::format(
-        "{}: an image or label map is no mesh: .stl, .obj, .ply, .vtp and .vtk are read. Export the surface "
-        "of each bone from the program that segmented it (3D Slicer: Segmentations, Export to files, STL)",
-        path.string()));
+    throw FileError(
+        fmt::format("{0}: an image or label map is no mesh: condyle surface {0} --label NAME --out BONE.ply "
+                    "makes one of a "
+                    "label; condyle hip and condyle init take a label map of both bones, or one of each",
+                    path.string()));
   if (extension == ".gz" || extension == ".zip" || extension == ".bz2" || extension == ".xz" ||
       extension == ".zst")
     throw FileError(

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "condyle/error.hpp"
+#include "core/counted.hpp"
 #include "core/one_line.hpp"
 
 namespace condyle::io {
@@ -30,13 +31,14 @@ std::string_view name_of(Repair repair) noexcept {
 std::string describe(const RepairDone& done) {
   switch (done.repair) {
     case Repair::weld:
-      return fmt::format("weld: merged {} duplicate vertices", done.count);
+      return fmt::format("weld: merged {}",
+                         core::counted(done.count, "duplicate vertex", "duplicate vertices"));
     case Repair::drop_unreferenced:
-      return fmt::format("drop_unreferenced: dropped {} vertices", done.count);
+      return fmt::format("drop_unreferenced: dropped {}", core::counted(done.count, "vertex", "vertices"));
     case Repair::flip_inverted:
       break;
   }
-  return fmt::format("flip_inverted: flipped {} triangles", done.count);
+  return fmt::format("flip_inverted: flipped {}", core::counted(done.count, "triangle", "triangles"));
 }
 
 }  // namespace condyle::io

@@ -7,6 +7,7 @@
 
 #include "condyle/io/pose_text.hpp"
 #include "core/rounded.hpp"
+#include "io/file/shown_point.hpp"
 #include "io/result/json.hpp"
 #include "io/result/movement_words.hpp"
 #include "io/result/parameters.hpp"
@@ -17,11 +18,6 @@ namespace condyle::io {
 namespace {
 
 using io::Json;
-
-std::string text_of(const Vec3& v) {
-  const Vec3 p = v.array() + 0.0;  // no -0
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
-}
 
 /// The frame's axes by their anatomical names.
 std::array<std::pair<const char*, Vec3>, 3> axes_of(const Pose& X_WF) {
@@ -130,9 +126,9 @@ std::string to_text(const LoadedJoint& loaded) {
                                 words_of_anatomy(joint), name_of(joint.side));
   out += io::parameters_text(joint);
   out += fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre",
-                     text_of(placement.X_WF.translation()));
+                     shown(placement.X_WF.translation()));
   for (const auto& [name, axis] : axes_of(placement.X_WF))
-    out += fmt::format("  {:<8} {}\n", name, text_of(axis));
+    out += fmt::format("  {:<8} {}\n", name, shown(axis));
   out += fmt::format("  {:<8} ", "angles");
   for (const JointAngle angle : all_joint_angles) {
     if (angle != JointAngle::flexion && joint.kind == JointKind::hinge) break;

@@ -9,6 +9,7 @@
 #include "condyle/version.hpp"
 #include "core/rounded.hpp"
 #include "io/file/plain_text.hpp"
+#include "io/file/shown_point.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/polygon_rule.hpp"
 #include "io/result/json.hpp"
@@ -68,7 +69,7 @@ void for_each_finding(const MeshReport& r, const Visit& visit) {
 std::string component_text(const MeshComponent& c, bool is_only) {
   std::string out = fmt::format("{} triangles, {}", c.triangles, c.closed ? "closed" : "open");
   if (c.genus) out += fmt::format(", genus {}", *c.genus);
-  if (c.signed_volume) out += fmt::format(", volume {:.6g}", *c.signed_volume);
+  if (c.signed_volume) out += fmt::format(", volume {:.6g}", shown(*c.signed_volume));
   if (is_only) return out;
   const Vec3 middle = (c.bounds.low + c.bounds.high) / 2;
   out += fmt::format(", {:.4g} across about {}", c.bounds.diagonal(), core::rounded(middle, 1));
@@ -94,11 +95,11 @@ void append(std::string& out, const MeshInspection& mesh) {
     if (finding.count > 0)
       out += fmt::format("  {} {}, the first: {}\n", finding.count, words, text_of(*finding.first));
   });
-  const Vec3 low = r.bounds.low.array() + 0.0, high = r.bounds.high.array() + 0.0;  // no -0
-  out += fmt::format("  bounds x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g}, z {:.6g} .. {:.6g}\n", low.x(),
-                     high.x(), low.y(), high.y(), low.z(), high.z());
+  const Vec3 low = r.bounds.low, high = r.bounds.high;
+  out += fmt::format("  bounds x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g}, z {:.6g} .. {:.6g}\n", shown(low.x()),
+                     shown(high.x()), shown(low.y()), shown(high.y()), shown(low.z()), shown(high.z()));
   out += fmt::format("  area {:.6g}", r.area);
-  if (r.signed_volume) out += fmt::format(", volume {:.6g}", *r.signed_volume);
+  if (r.signed_volume) out += fmt::format(", volume {:.6g}", shown(*r.signed_volume));
   out += fmt::format("; edges {:.4g} .. {:.4g}, median {:.4g}\n", r.edge_lengths.shortest,
                      r.edge_lengths.longest, r.edge_lengths.median);
   out += fmt::format("  unit: {}\n", r.likely_unit.reason);

@@ -203,6 +203,9 @@ std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const
                      ": limits are written as .osim, .xml of MuJoCo or .csv of coupled limits");
   if (file.model && ending != ".osim")
     throw UsageError(file.path.string() + ": a copy of a model is an .osim");
+  if (file.model && core::lower_case(file.model->extension().string()) != ".osim")
+    throw UsageError(file.model->string() +
+                     ": is no model of OpenSim: --model takes the .osim that the joint is of");
   if (file.stop == StopForce::linear && ending != ".osim")
     throw UsageError(file.path.string() + ": a linear stop is of an .osim");
   if (file.source == LimitSource::living && ending == ".csv")

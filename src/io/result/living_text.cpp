@@ -7,7 +7,7 @@
 
 namespace condyle::io {
 
-std::string living_text(const RomResult& result) {
+std::string living_text(const RomResult& result, TextForm form) {
   int hips = 0;
   bool any_people = false;
   std::string far_off;
@@ -20,12 +20,12 @@ std::string living_text(const RomResult& result) {
       far_off += (far_off.empty() ? "" : ", ") + result.answer.limits[i].motion.name;
   }
   std::string text;
-  if (hips > 0)
-    text += fmt::format("\"some\" is the limit less what soft tissue took in {} hips of cadavers; ", hips);
-  if (any_people) text += "means are of other people, not this joint; ";
-  if (text.empty() && far_off.empty()) return text;
-  text = "  living hips: " + text + "sources by --json\n";
-  if (!far_off.empty()) text += "    usually ended by soft tissue before bone: " + far_off + "\n";
+  if (hips > 0) text += fmt::format("; \"some\": less what soft tissue took in {} cadavers", hips);
+  if (any_people) text += "; means: of other people";
+  if (form == TextForm::whole && !(text + far_off).empty()) text += "; sources by --json";
+  if (!text.empty()) text = "  living hips: " + text.substr(2) + "\n";
+  if (form == TextForm::whole && !far_off.empty())
+    text += "    usually ended by soft tissue before bone: " + far_off + "\n";
   return wrapped(text);
 }
 

@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "core/counted.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/contact_terms.hpp"
@@ -217,14 +218,15 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   const FrameTimes& times = question.motion.times;
   const char* unit = times.in_seconds ? " s" : "";
   std::string text =
-      fmt::format("{}: {} frames, {}{:g} to {:g}{}\n", joint.name, summary.frames,
+      fmt::format("{}: {}, {}{:g} to {:g}{}\n", joint.name, core::counted(summary.frames, "frame", "frames"),
                   times.in_seconds ? "" : "numbers ", times.values.front(), times.values.back(), unit);
   text += io::parameters_text(joint);
-  if (summary.gaps > 0) text += fmt::format("  {} frames are gaps: no answer there\n", summary.gaps);
+  if (summary.gaps > 0)
+    text += fmt::format("  {}: no answer there\n",
+                        core::counted(summary.gaps, "frame is a gap", "frames are gaps"));
   text += io::contact_caveats_text(question.contact, question.surfaces, question.with_pressure);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
-  text +=
-      fmt::format("  {} {} in contact\n", summary.in_contact, summary.in_contact == 1 ? "frame" : "frames");
+  text += fmt::format("  {} in contact\n", core::counted(summary.in_contact, "frame", "frames"));
   const auto line = [&](const char* what, const Summary::Largest& largest, const char* of,
                         const std::string& where = "") {
     if (largest.value > 0)
@@ -273,8 +275,8 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
                   "their length is no depth, and the largest values of {} frames are of such a triangle",
                   summary.oblique_peak));
   if (summary.cut_off > 0)
-    text += fmt::format("  in {} frames the reach of {} mm cuts off rays that would be in contact\n",
-                        summary.cut_off, question.contact.rays.reach_mm);
+    text += fmt::format("  in {} the reach of {} mm cuts off rays that would be in contact\n",
+                        core::counted(summary.cut_off, "frame", "frames"), question.contact.rays.reach_mm);
   return text;
 }
 

@@ -27,8 +27,11 @@ AnswerFrame frame_of(const RomResult& result);
 /// The summary as JSON text, with a newline at its end.
 std::string rom_json(const RomResult& result);
 
+/// The answer, within 24 lines of a hip (26 with bands), or with all that stands in the files too.
+enum class TextForm { brief, whole };
+
 /// A table for people, one line per motion, then what the map comes to.
-std::string rom_text(const RomResult& result);
+std::string rom_text(const RomResult& result, TextForm form = TextForm::brief);
 
 /// One line per motion, with a header line; numbers to the last bit.
 std::string rom_csv(const RomResult& result);

@@ -31,13 +31,19 @@
 namespace condyle::io {
 namespace {
 
-/// One line or two: what does not count and by which numbers.
-std::string bearing_text(const RomResult& result) {
+/// What does not count and by which numbers; in brief only if it is not as usual.
+std::string bearing_text(const RomResult& result, TextForm form) {
   const auto& surface = result.answer.bearing.surface;
   if (!surface)
     return result.answer.bearing.roles.mobile.empty()
                ? fmt::format("  every contact counts: {}\n", result.answer.bearing.why_none)
                : "";
+  const bool counts = result.answer.bearing_rule == motion::BearingRule::count;
+  const bool is_beside = surface->beside_gap_mm &&
+                         *surface->beside_gap_mm <
+                             by_head(motion::usual_bearing_margin_mm + motion::rim_reserve_mm, surface->head);
+  if (form == TextForm::brief && surface->rim_gap_mm && !counts && !is_beside && surface->parts.empty())
+    return "";
   const std::string rim = surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm)
                           : !surface->parts.empty() ? ""
                           : surface->margin_mm == by_head(motion::usual_bearing_margin_mm, surface->head)
@@ -48,18 +54,16 @@ std::string bearing_text(const RomResult& result) {
                                  ? within
                                  : fmt::format("{}, as the joint file says, and what lies {}",
                                                fmt::join(surface->parts, " and "), within);
-  const std::string beside =
-      surface->beside_gap_mm &&
-              *surface->beside_gap_mm <
-                  by_head(motion::usual_bearing_margin_mm + motion::rim_reserve_mm, surface->head)
-          ? fmt::format(", {} {:.2f} mm beside its socket", result.joint.fixed.name, *surface->beside_gap_mm)
-          : "";
-  return fmt::format(
-      "  bearing surface: {} of {} triangles of {}, {}\n"
-      "    ({} {:.2f} mm{}{}); contact on it {}\n",
-      surface->count(), surface->triangles.size(), result.joint.mobile.name, extent,
-      surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim, beside,
-      result.answer.bearing_rule == motion::BearingRule::count ? "counts" : "does not end a motion");
+  const std::string beside = is_beside ? fmt::format(", {} {:.2f} mm beside its socket",
+                                                     result.joint.fixed.name, *surface->beside_gap_mm)
+                                       : "";
+  const std::string of_all = form == TextForm::brief
+                                 ? ""
+                                 : fmt::format("{} of {} triangles of {}, ", surface->count(),
+                                               surface->triangles.size(), result.joint.mobile.name);
+  return fmt::format("  bearing surface: {}{}\n    ({} {:.2f} mm{}{}); contact on it {}\n", of_all, extent,
+                     surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim,
+                     beside, counts ? "counts" : "does not end a motion");
 }
 
 /// A line for each word that the joint file has for meshes other than bone.
@@ -171,19 +175,19 @@ std::string surface_text(const motion::Uncertainty& sigma, const Joint& joint) {
              : mm;
 }
 
-/// The bands and where they come from; without bands a line that says how to get them.
-std::string band_text(const RomResult& result) {
+/// Where the bands come from, and as a whole what widens them; without bands a line that says how to get them.
+std::string band_text(const RomResult& result, TextForm form) {
   if (result.answer.bands.empty())
     return result.answer.depths.empty() && !result.answer.follows
                ? "  band unknown: --band computes how far these limits move with what is uncertain\n"
                : "";
   const motion::BandOptions& options = result.answer.band_options;
-  std::string text = fmt::format(
-      "  band: 5 to 95 % of {} joints with the centre moved by {:g} mm, the axes by {:g} deg and the "
-      "surfaces by {}{}\n"
-      "    (standard deviations, seed {}); its width where only one of them is moved:\n",
+  const std::string text = fmt::format(
+      "  band: 5 to 95 % of {} joints; SD: centre {:g} mm, axes {:g} deg, surfaces {}{}; seed {}{}\n",
       options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(),
-      surface_text(options.sigma, result.joint), io::sigmas_text(result.joint), options.seed);
+      surface_text(options.sigma, result.joint), io::sigmas_text(result.joint), options.seed,
+      form == TextForm::brief ? "" : "; its width where only one of them is moved:");
+  if (form == TextForm::brief) return wrapped(text);
   TextColumn name{Align::left, {"motion"}}, median{Align::right, {"median"}}, low{Align::right, {"5 %"}},
       high{Align::right, {"95 %"}}, centre{Align::right, {"centre"}}, axes{Align::right, {"axes"}},
       surface{Align::right, {"surface"}}, parameters{Align::right, {"parameters"}},
@@ -206,60 +210,95 @@ std::string band_text(const RomResult& result) {
   return wrapped(text) + table_text(columns);
 }
 
-/// Caveats on the usual ends of motions like these: a line for each, with its motions.
-std::string caveat_text(const RomResult& result) {
+/// Caveats on the usual ends of motions like these: a line for each, with its motions; in brief those by which a living joint ends earlier.
+std::string caveat_text(const RomResult& result, TextForm form) {
   MotionGroups caveats;
+  std::vector<std::string_view> soft, labrum;
+  std::string_view of_labrum;
   for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
     const motion::MotionLimit& limit = result.answer.limits[i];
     const auto living = living_limit(result.answer, i);
+    bool is_soft = living && living->gap && living->gap->closeness != Closeness::close;
     for (const MotionCaveat& caveat : motion_caveats(result.joint, limit.motion)) {
+      is_soft |= !(living && living->gap) && (caveat.code == MotionCaveatCode::soft_tissue_ends ||
+                                              caveat.code == MotionCaveatCode::soft_tissue_close);
+      if (caveat.code == MotionCaveatCode::labrum_not_modelled)
+        of_labrum = caveat.summary, labrum.push_back(limit.motion.name);
       // The lines on living hips say more of it than whether bone usually ends it.
       if (living && living->gap && caveat.code != MotionCaveatCode::labrum_not_modelled) continue;
       const std::string source = caveat.source.empty() ? "" : fmt::format(" ({})", caveat.source);
       caveats.add(std::string(caveat.summary) + source, limit.motion.name);
     }
+    if (is_soft) soft.push_back(limit.motion.name);
   }
-  const std::string text = caveats.text();
-  return text.empty() ? "" : wrapped("  caveats, by studies of other hips:\n" + text);
+  if (form == TextForm::whole) {
+    const std::string text = caveats.text();
+    return text.empty() ? "" : wrapped("  caveats, by studies of other hips:\n" + text);
+  }
+  std::string text = soft.empty() ? "" : fmt::format("soft tissue first: {}", fmt::join(soft, ", "));
+  if (!labrum.empty())
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", of_labrum, fmt::join(labrum, ", "));
+  return caveats.text().empty()
+             ? ""
+             : wrapped(fmt::format("  {}{}more: --verbose\n", text, text.empty() ? "" : "; "));
 }
 
-/// Limits beside those of simulations of bone.
-std::string bone_text(const RomResult& result) {
+/// Limits beside those of simulations of bone; in brief those that are as short as with a cam.
+std::string bone_text(const RomResult& result, TextForm form) {
   std::string text;
   for (const motion::MotionLimit& limit : result.answer.limits)
-    if (const auto bone = bone_reference(result.joint, limit))
-      text += wrapped(fmt::format(
-          "  bone ends {} at {:.1f} deg in {} simulated healthy hips, {:.1f} in as many with a cam and no "
-          "complaints, {:.1f} in as many patients ({}); no spread is given{}\n",
-          limit.motion.name, bone->healthy.degrees(), bone->people_each,
-          bone->cam_without_complaints.degrees(), bone->patients.degrees(), bone->source,
-          is_short(*bone, limit) ? ": here it ends it as early as in hips with a cam" : ""));
+    if (const auto bone = bone_reference(result.joint, limit)) {
+      const bool is_early = is_short(*bone, limit);
+      if (form == TextForm::whole)
+        text += wrapped(fmt::format(
+            "  bone ends {} at {:.1f} deg in {} simulated healthy hips, {:.1f} in as many with a cam and no "
+            "complaints, {:.1f} in as many patients ({}); no spread is given{}\n",
+            limit.motion.name, bone->healthy.degrees(), bone->people_each,
+            bone->cam_without_complaints.degrees(), bone->patients.degrees(), bone->source,
+            is_early ? ": here it ends it as early as in hips with a cam" : ""));
+      else if (is_early)
+        text += wrapped(
+            fmt::format("  bone ends {} as early as in hips with a cam ({:.1f} deg, healthy {:.1f})\n",
+                        limit.motion.name, bone->cam_without_complaints.degrees(), bone->healthy.degrees()));
+    }
   return text;
 }
 
-/// Where angles count from, and whether limits may be held against clinical ranges.
-std::string zero_words(const RomResult& result) {
+/// Where angles count from, and whether limits may be held against clinical ranges; the plane in which hours are read, in brief if it is
+/// not the usual one.
+std::string zero_words(const RomResult& result, TextForm form) {
   const ZeroPose zero = zero_pose(result.joint);
-  return wrapped(fmt::format(
-      "  zero: {}{}\n", zero_text(result.joint, zero),
-      result.joint.is_hip() && !zero.is_neutral() ? "; limits are not compared with clinical ranges" : ""));
+  const bool is_hip = result.joint.is_hip(), by_rim = result.answer.clock_plane == motion::ClockPlane::rim;
+  return wrapped(
+      fmt::format("  zero: {}{}\n{}", zero_text(result.joint, zero),
+                  is_hip && !zero.is_neutral() ? "; limits are not compared with clinical ranges" : "",
+                  is_hip && by_rim ? "  clock: hours in the plane of the rim, 6 at the notch and 3 anterior\n"
+                  : is_hip && form == TextForm::whole
+                      ? "  clock: hours in the sagittal plane, 12 superior and 3 anterior\n"
+                      : ""));
 }
 
-/// From contact to contact of opposite motions, wherever zero is; nothing if none have it.
-std::string arcs_text(const RomResult& result) {
-  std::vector<std::string> arcs;
-  for (const io::OppositeLimits& pair : io::opposite_limits(result.answer.limits))
-    arcs.push_back(
-        fmt::format("{} to {} {:.2f}", pair.one->motion.name, pair.other->motion.name, pair.arc().degrees()));
-  return arcs.empty() ? "" : wrapped(fmt::format("  total arcs (deg): {}\n", fmt::join(arcs, ", ")));
+/// Digits after the point of a limit, by its band.
+int digits_of(const RangeAnswer& answer, const motion::MotionLimit& limit) {
+  return answer.bands.empty()
+             ? 2
+             : limit_digits(answer.bands[static_cast<std::size_t>(&limit - answer.limits.data())]);
 }
 
-/// The plane in which hours are read; nothing where there are none.
-std::string clock_words(const RomResult& result) {
-  if (!result.joint.is_hip()) return "";
-  return result.answer.clock_plane == motion::ClockPlane::rim
-             ? "  clock: hours in the plane of the rim, 6 at the notch and 3 anterior\n"
-             : "  clock: hours in the sagittal plane, 12 superior and 3 anterior\n";
+/// From contact to contact of opposite motions, wherever zero is, as their limits are printed; nothing if none have it. In brief what one
+/// line holds.
+std::string arcs_text(const RomResult& result, TextForm form) {
+  constexpr std::size_t line = 100;
+  std::string text;
+  for (const io::OppositeLimits& pair : io::opposite_limits(result.answer.limits)) {
+    const std::string arc =
+        fmt::format("{}{} to {} {:.{}f}", text.empty() ? "  total arcs (deg): " : ", ", pair.one->motion.name,
+                    pair.other->motion.name, pair.arc().degrees(),
+                    std::min(digits_of(result.answer, *pair.one), digits_of(result.answer, *pair.other)));
+    if (form == TextForm::brief && !text.empty() && text.size() + arc.size() > line) break;
+    text += arc;
+  }
+  return text.empty() ? "" : wrapped(text + "\n");
 }
 
 /// The features that meet past each limit; nothing without zones.
@@ -311,7 +350,8 @@ std::string limit_words(const RangeAnswer& answer, std::size_t i) {
   return band ? io::quoted_limit(limit.end.turned, *band) : fmt::format("{:.2f}", limit.end.turned.degrees());
 }
 
-std::string rom_text(const RomResult& result) {
+std::string rom_text(const RomResult& result, TextForm form) {
+  const bool is_whole = form == TextForm::whole;
   TextColumn name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
       clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
@@ -342,12 +382,13 @@ std::string rom_text(const RomResult& result) {
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
   const Joint& joint = result.joint;
-  std::string text = wrapped(fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name,
-                                         joint.fixed.name, name_of(joint.side)));
+  const std::string bodies = fmt::format("{} in {}", joint.mobile.name, joint.fixed.name);
+  std::string text = wrapped(fmt::format("{}{}, {} side\n", joint.name == bodies ? "" : joint.name + ": ",
+                                         bodies, name_of(joint.side)));
   text += wrapped(io::parameters_text(joint));
-  text += wrapped(bearing_text(result) + meshes_text(result));
+  text += wrapped(bearing_text(result, form) + meshes_text(result));
   for (const std::string& caveat : result.answer.caveats) text += wrapped(fmt::format("  {}\n", caveat));
-  text += zero_words(result) + clock_words(result);
+  text += zero_words(result, form);
   // The figures that people quote, within a terminal's width; the rest is in JSON and CSV.
   const bool has_living =
       std::any_of(living.cells.begin() + 1, living.cells.end(), [](const auto& cell) { return cell != "-"; });
@@ -363,18 +404,20 @@ std::string rom_text(const RomResult& result) {
     shown.push_back(std::move(soft));
   if (!result.answer.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
-  text += living_text(result);
-  text += bone_text(result);
-  text += arcs_text(result);
+  text += living_text(result, form);
+  if (!is_whole) text += caveat_text(result, form);
+  text += bone_text(result, form);
+  text += arcs_text(result, form);
   text += closed_text(result);
   text += met_text(result, "ended by", end_of);
   text += met_text(result, "soft meshes touched on the way", soft_contact_of);
   text += zones_text(result);
-  text += band_text(result);
-  if (std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
+  text += band_text(result, form);
+  if (is_whole &&
+      std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
                   [](const motion::MotionLimit& limit) { return is_as_defined_here(limit.motion); }))
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
-  text += caveat_text(result);
+  if (is_whole) text += caveat_text(result, form);
   if (result.answer.map) text += wrapped(map_text(*result.answer.map));
   if (result.box) text += limit_box_text(*result.box);
   return text + wrapped(fmt::format("  {}\n", scope_text(result.joint)));

@@ -66,8 +66,7 @@ Tissues tissues_of(const Joint& joint) {
 
 std::string scope_of(const Tissues& tissues) {
   constexpr const char* end = "research software, not a medical device";
-  if (tissues.only_bones())
-    return fmt::format("osseous contact of the meshes given; soft tissue is not modelled; {}", end);
+  if (tissues.only_bones()) return fmt::format("osseous contact only; soft tissue is not modelled; {}", end);
   std::vector<std::string_view> there;
   for (std::size_t i = 0; i < tissue_names.size(); ++i)
     if (tissues.has[i]) there.push_back(tissue_names[i]);

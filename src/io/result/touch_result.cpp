@@ -11,6 +11,7 @@
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
+#include "io/file/shown_point.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/picture/png.hpp"
 #include "io/record/json_of.hpp"
@@ -44,10 +45,6 @@ Json touch_answer_object(const Record& record, const TouchFiles* files) {
   return json;
 }
 
-std::string xyz_text(const Vec3& p) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
-}
-
 std::string both_names(const TouchFiles& files) {
   return fmt::format("{} and {}", files.fixed.path.string(), files.mobile.path.string());
 }
@@ -60,13 +57,13 @@ const std::filesystem::path& file_in_role(const TouchFiles& files, std::string_v
 std::string touch_end_text(const TurnEndRecord& end) {
   using motion::LimitReason;
   if (end.reason == LimitReason::end_of_range) return "nothing is met in a whole turn";
-  return fmt::format("{:.9g} degrees{}", end.turned_deg,
-                     end.contact_point_mm ? ", at " + xyz_text(*end.contact_point_mm) : "");
+  return fmt::format("{:.9g} degrees{}", shown(end.turned_deg),
+                     end.contact_point_mm ? ", at " + shown(*end.contact_point_mm) : "");
 }
 std::string touch_end_text(const SlideEndRecord& end) {
   if (!end.moved_mm) return "nothing is met";
-  return fmt::format("{:.9g} mm{}", *end.moved_mm,
-                     end.contact_point_mm ? ", at " + xyz_text(*end.contact_point_mm) : "");
+  return fmt::format("{:.9g} mm{}", shown(*end.moved_mm),
+                     end.contact_point_mm ? ", at " + shown(*end.contact_point_mm) : "");
 }
 
 /// `bound(value)` of each end, in words of `unit`.
@@ -129,8 +126,8 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
     text += fmt::format("  {} is wholly inside the other\n", file_in_role(files, *record.inside).string());
   if (record.nearest_distance_mm)
     text += fmt::format("  nearest distance of the surfaces: {:.6g} mm, at {} and {}\n",
-                        *record.nearest_distance_mm, xyz_text(*record.nearest_fixed_mm),
-                        xyz_text(*record.nearest_mobile_mm));
+                        *record.nearest_distance_mm, shown(*record.nearest_fixed_mm),
+                        shown(*record.nearest_mobile_mm));
   if (record.intersecting_pairs > 0)
     text += fmt::format("  pairs of triangles that meet: {}\n", record.intersecting_pairs);
   if (const auto& deepest = record.deepest)
@@ -139,7 +136,7 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
         deepest->error_mm > 1e-6 * deepest->depth_mm
             ? fmt::format(" (no place is deeper by more than {} mm)", core::at_most(deepest->error_mm, 1))
             : "",
-        xyz_text(deepest->place_mm), file_in_role(files, deepest->body).string(), xyz_text(deepest->normal));
+        shown(deepest->place_mm), file_in_role(files, deepest->body).string(), shown(deepest->normal));
   else if (record.depth_bound_mm)
     text +=
         fmt::format("  deepest: none found; no place of a surface is deeper in the other body than {} mm\n",
@@ -165,25 +162,26 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
   if (record.in_contact)
     for (const FreeTranslationRecord& each : record.free)
       text += fmt::format("  free once {} has moved {:.9g} mm along {}\n", files.mobile.path.string(),
-                          each.distance_mm, xyz_text(each.along));
+                          each.distance_mm, shown(each.along));
   return text;
 }
 
 std::string turn_text(const TurnAnswer& answer, const TouchFiles& files) {
   const TurnRecord record = turn_record(answer);
-  return fmt::format("{}: the second turns about {} through {}\n", both_names(files), xyz_text(record.axis),
-                     xyz_text(record.centre_mm)) +
+  return fmt::format("{}: the second turns about {} through {}\n", both_names(files), shown(record.axis),
+                     shown(record.centre_mm)) +
          free_intervals_text(record, "degrees", [](const TurnIntervalRecord& each) {
-           return std::pair(fmt::format("{:.9g}", each.low_deg), fmt::format("{:.9g}", each.high_deg));
+           return std::pair(fmt::format("{:.9g}", shown(each.low_deg)),
+                            fmt::format("{:.9g}", shown(each.high_deg)));
          });
 }
 
 std::string slide_text(const SlideAnswer& answer, const TouchFiles& files) {
   const SlideRecord record = slide_record(answer);
-  return fmt::format("{}: the second slides along {}\n", both_names(files), xyz_text(record.along)) +
+  return fmt::format("{}: the second slides along {}\n", both_names(files), shown(record.along)) +
          free_intervals_text(record, "mm", [](const SlideIntervalRecord& each) {
            const auto end = [](const std::optional<double>& mm) {
-             return mm ? fmt::format("{:.9g}", *mm) : "any";
+             return mm ? fmt::format("{:.9g}", shown(*mm)) : "any";
            };
            return std::pair(end(each.low_mm), end(each.high_mm));
          });

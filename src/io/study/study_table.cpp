@@ -10,6 +10,7 @@
 #include <set>
 
 #include "condyle/sample/hip.hpp"
+#include "core/lower_case.hpp"
 #include "core/near_name.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/in_quotes.hpp"
@@ -170,6 +171,11 @@ std::string StudyTable::place(const StudyRow& row, std::string_view column) cons
 }
 
 StudyTable read_study_table(const std::filesystem::path& path) {
+  if (core::lower_case(path.extension().string()) == ".toml")
+    throw FileError(fmt::format(
+        "{0}: is a joint file, not a table: condyle rom {0} has its limits; a table has a row per "
+        "joint, id,joint and below hip1,{0}",
+        path.string()));
   const std::string bytes = read_whole_file(path), name = path.string();
   const Source source{without_byte_order_mark(bytes), name};
   if (const std::size_t end = end_of_utf8(source.bytes); end < source.bytes.size())

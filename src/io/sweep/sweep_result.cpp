@@ -9,6 +9,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "core/counted.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
 #include "io/joint/given_degrees.hpp"
@@ -210,10 +211,12 @@ std::string sweep_text(const SweepResult& result) {
   for (const plan::SweptParameter& each : sweep.parameters)
     axes += fmt::format("{}{} {:.10g} to {:.10g} by {:.10g}", axes.empty() ? "" : ", ", each.name, each.first,
                         each.last, each.step);
-  std::string text = fmt::format("{}: {}\n  {} designs, {} targets", result.joint, axes, sweep.designs(),
-                                 sweep.targets.size());
+  std::string text =
+      fmt::format("{}: {}\n  {}, {}", result.joint, axes, core::counted(sweep.designs(), "design", "designs"),
+                  core::counted(sweep.targets.size(), "target", "targets"));
   if (sweep.share.of > 1) text += fmt::format("; share {} of {}", sweep.share.number, sweep.share.of);
-  text += fmt::format("\n  safe: {} designs{}\n", count_safe(sweep), measure_text(sweep));
+  text += fmt::format("\n  safe: {}{}\n", core::counted(count_safe(sweep), "design", "designs"),
+                      measure_text(sweep));
   text +=
       fmt::format("  here: {}: {}\n", values_text(sweep, sweep.here), margin_text(sweep, sweep.limits_here));
   if (sweep.best) {
