@@ -213,7 +213,7 @@ SETUPS: dict[str, Setup] = {
     "misspelt file": Setup(3, "there is no file", changed(("femur.ply", "femr.ply"))),
     "file of json": Setup(3, "unknown extension '.json'", lambda scene: (
         copied("femur.ply", "femur.json")(scene), scene.joint(("femur.ply", "femur.json")))),
-    "label map for a mesh": Setup(3, "surface of each bone from the program that segmented it", lambda scene: (
+    "label map for a mesh": Setup(3, "--label NAME --out BONE.ply makes one of a label", lambda scene: (
         copied("femur.ply", "femur.nii.gz")(scene), scene.joint(("femur.ply", "femur.nii.gz")))),
     "free without joint": Setup(3, 'joint: is missing: a free joint needs "hip"', line("kind", 'kind = "free"')),
     "hip as a hinge by name": Setup(3, "a hip is no hinge", line("kind", 'kind = "hinge"\njoint = "hip"')),
