@@ -490,7 +490,7 @@ Person person_of(TomlTable& file) {
   if (!table) return {};
   Person person{.age_years = table->number("age")};
   if (person.age_years && !is_age(*person.age_years)) table->fail("age", "must be 0 to 120 years");
-  if (table->has("sex")) person.sex = all_sexes[table->required_word("sex", {"female", "male"})];
+  if (const auto sex = table->word("sex", {"female", "male"})) person.sex = all_sexes[*sex];
   table->finish();
   return person;
 }

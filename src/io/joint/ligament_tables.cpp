@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,10 +15,10 @@
 namespace condyle::io {
 namespace {
 
-/// Above 0.
-double positive_number(TomlTable& table, std::string_view key) {
-  const double value = table.required(key, table.number(key));
-  if (!(value > 0)) table.fail(key, "must be above 0");
+/// Above 0, if it is there.
+std::optional<double> positive_number(TomlTable& table, std::string_view key) {
+  const std::optional<double> value = table.number(key);
+  if (value && !(*value > 0)) table.fail(key, "must be above 0");
   return value;
 }
 
@@ -37,7 +38,7 @@ LigamentWrap wrap_of(TomlTable& table, double mm) {
       table.fail("axes", "must be two unit vectors at a right angle, x and y");
     wrap.axes << axes[0], axes[1], axes[0].cross(axes[1]);
   } else {
-    wrap.radius_mm = mm * positive_number(table, "radius");
+    wrap.radius_mm = mm * table.required("radius", positive_number(table, "radius"));
   }
   if (wrap.shape == WrapShape::cylinder) {
     wrap.axis = table.required("axis", table.triple("axis"));
@@ -55,8 +56,8 @@ void read_slack(TomlTable& table, const JointDescription& joint, double mm, Desc
   if (given == 0)
     table.fail_missing("slack_length", "or taut_at, or slack_share of the length in the reference pose");
   if (given > 1) table.fail("slack_length", "give one of slack_length, slack_share and taut_at");
-  if (table.has("slack_length")) out.ligament.slack_length_mm = mm * positive_number(table, "slack_length");
-  if (table.has("slack_share")) out.slack_share = positive_number(table, "slack_share");
+  if (const auto length = positive_number(table, "slack_length")) out.ligament.slack_length_mm = mm * *length;
+  if (const auto share = positive_number(table, "slack_share")) out.slack_share = *share;
   if (const auto text = table.text("taut_at")) try {
       const PoseDegrees pose = parse_pose(*text, joint.kind, joint.anatomy);
       if (pose.translation_mm != Vec3::Zero()) table.fail("taut_at", "takes angles only");
@@ -86,10 +87,10 @@ DescribedLigament described_ligament(TomlTable& table, const JointDescription& j
   };
   ligament.slack_sigma_mm = mm * zero_or_more("slack_sigma", 0);
   ligament.point_sigma_mm = mm * zero_or_more("point_sigma", 0);
-  if (table.has("stiffness_n")) ligament.stiffness_n = positive_number(table, "stiffness_n");
+  if (const auto stiffness = positive_number(table, "stiffness_n")) ligament.stiffness_n = *stiffness;
   ligament.transition_strain = zero_or_more("transition_strain", ligament.transition_strain);
   ligament.damping_n_s = zero_or_more("damping_n_s", 0);
-  if (table.has("ends_at_strain")) ligament.ends_at_strain = positive_number(table, "ends_at_strain");
+  if (const auto strain = positive_number(table, "ends_at_strain")) ligament.ends_at_strain = *strain;
   if (table.is_text("wrap"))
     out.wraps_head = table.required_word("wrap", {"head"}) == 0;
   else if (auto wrap = table.table("wrap"))

@@ -44,7 +44,6 @@ std::string TomlTable::full(std::string_view key) const {
 }
 
 bool TomlTable::has(std::string_view key) const {
-  looked_for_.emplace(key);
   return table_->contains(key);
 }
 
@@ -214,11 +213,9 @@ void TomlTable::fail_missing(std::string_view key, std::string_view needed_for) 
 void TomlTable::finish() const {
   for (const auto& [key, node] : *table_)
     if (!known_.contains(key.str())) {
-      std::set<std::string, std::less<>> all = known_;
-      all.insert(looked_for_.begin(), looked_for_.end());
-      const std::vector<std::string> names(all.begin(), all.end());
+      const std::vector<std::string> names(known_.begin(), known_.end());
       fail(key.str(), fmt::format("unknown key{}; known here: {}", core::did_you_mean(key.str(), names),
-                                  fmt::join(names, ", ")));
+                                  fmt::join(known_, ", ")));
     }
 }
 

@@ -23,7 +23,6 @@ class TomlTable {
   /// `path` and `table` are borrowed. `name` is how keys of the table are introduced: "" or "frame".
   TomlTable(const std::filesystem::path& path, const toml::table& table, std::string name);
 
-  /// Whether it is there; finish() names it among the keys that are known.
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;
 
@@ -76,7 +75,6 @@ class TomlTable {
   const toml::table* table_;
   std::string name_;
   std::set<std::string, std::less<>> known_;
-  mutable std::set<std::string, std::less<>> looked_for_ = {};  ///< by has()
 };
 
 }  // namespace condyle::io
