@@ -183,7 +183,7 @@ TEST_F(Files, ThatAreDevicesAreWrittenInto) {
 }
 
 TEST_F(Files, UnderALinkAreReplacedWhereTheyLie) {
-  write("elsewhere/page.html", "earlier");
+  write("elsewhere/page.html", "The Condyle authors, earlier");
   fs::create_symlink("elsewhere/page.html", here / "link.html");
   ASSERT_EQ(run("report joint.toml --out link.html").exit_code, 0);
   EXPECT_TRUE(fs::is_symlink(here / "link.html"));

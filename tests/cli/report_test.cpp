@@ -351,9 +351,9 @@ TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
 }
 
 TEST_F(ReportCommand, AnOlderReportStaysWhereANewOneFails) {
-  folder.file("report.html", "an older one");
+  folder.file("report.html", "of The Condyle authors");
   ASSERT_EQ(run("report joint.toml --out report.html --band=3").exit_code, 2);
-  EXPECT_EQ(io::read_whole_file(folder / "report.html"), "an older one");
+  EXPECT_EQ(io::read_whole_file(folder / "report.html"), "of The Condyle authors");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 4);
 }
 

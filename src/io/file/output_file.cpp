@@ -55,6 +55,7 @@ void check_output_file(const fs::path& path, std::span<const fs::path> read, con
   check_replaces_none({&path, 1}, read);
   if (taken == NameTaken::replaceable) {
     check_ending(path, kind);
+    check_is_own(path);
     OutputFolder{folder_of(end_of_links(path))};
   } else if (const int error = why_not_writable(path)) {
     throw FileError(

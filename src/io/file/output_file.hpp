@@ -15,7 +15,7 @@ struct FileKind {
 };
 
 /// Throws FileError if write_output_file() could not put a file there, or where it would take the place of one of those
-/// that were `read`, and UsageError if a new file would have another ending than its kind: to be called before long work. Leaves
+/// that were `read` or of one that Condyle did not write, and UsageError if a new file would have another ending than its kind: to be called before long work. Leaves
 /// nothing.
 void check_output_file(const std::filesystem::path& path, std::span<const std::filesystem::path> read = {},
                        const FileKind& kind = {});

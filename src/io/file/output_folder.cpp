@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -58,6 +59,19 @@ void check_are_of_no_other_answer(const std::vector<fs::path>& there,
                                 there.front().string(), other));
 }
 
+/// Whether a run was killed here while its files got their names: its folder aside is left.
+bool has_aside(const fs::path& folder) {
+  return !files_of_command(folder, [](std::string_view name) {
+            return name.starts_with(".condyle-");
+          }).empty();
+}
+
+/// Tables of numbers and images have no words that say whose they are.
+bool says_whose(const fs::path& path) {
+  constexpr std::string_view endings[] = {".toml", ".ply", ".json", ".html", ".png", ".osim", ".xml"};
+  return std::find(std::begin(endings), std::end(endings), path.extension().string()) != std::end(endings);
+}
+
 void check_is_replaceable(const fs::path& path) {
   const NameTaken taken = io::what_has_the_name(path);
   if (taken == NameTaken::written_into || taken == NameTaken::refused)
@@ -88,7 +102,12 @@ OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command, std::sp
   const std::vector<fs::path> there = files_of_command(folder_, of_command_);
   io::check_replaces_none(there, read);
   check_are_of_no_other_answer(there, of_command_);
-  for (const fs::path& file : there) check_is_replaceable(file);
+  std::error_code none;
+  const bool was_here = document_.empty() || fs::exists(folder_ / document_, none) || has_aside(folder_);
+  for (const fs::path& file : there) {
+    check_is_replaceable(file);
+    if (!was_here) check_is_own(file);
+  }
   aside_ = std::make_unique<TemporaryFolder>(folder_);
 }
 
@@ -128,6 +147,7 @@ std::vector<fs::path> OutputFolder::commit() {
     std::error_code ignored;
     if (fs::is_directory(to.back(), ignored)) throw FileError(to.back().string() + ": is a folder");
     check_is_replaceable(to.back());
+    if (document_.empty() && says_whose(name)) check_is_own(to.back());
   }
   const std::vector<fs::path> left = left_by_earlier_runs();
   // What was read since the folder was made.

@@ -33,7 +33,8 @@ class OutputFolder {
   /// query stays beside those of this one. Every name passed to file() must be of the command. Refuses a folder in
   /// which one of the files `read` has a name of the command, directly or by a link: it would be replaced or removed. With
   /// the name of a document, which every run of the command writes, nothing is removed where that is missing: no run was there, and
-  /// the files are somebody's own. Refuses a folder whose files of the command belong to another command's answer, by that one's document.
+  /// the files are somebody's own: one that check_is_own() refuses is refused before the work. Refuses
+  /// too a folder whose files of the command belong to another command's answer, by that one's document.
   OutputFolder(const std::filesystem::path& folder, OfCommand of_command,
                std::span<const std::filesystem::path> read = {}, std::string document = {});
   ~OutputFolder();

@@ -1,7 +1,10 @@
 #include "io/file/replaced_files.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,7 +23,35 @@ std::optional<FileId> id_of(const fs::path& path) noexcept {
   return status.id;
 }
 
+/// At least one stands near the beginning of every file with words of its own: provenance, joint files, documents, pages, limits.
+constexpr std::string_view own_marks[] = {"condyle_version",       "condyle = ",
+                                          "\"condyle\": ",         std::string_view("CONDYLE\0", 8),
+                                          "The Condyle authors",   "limits of each coordinate by itself",
+                                          "name=\"condyle_limit_", "name=\"condyle_stop_"};
+constexpr std::size_t bytes_looked_at = 1 << 20;
+
+/// A mesh has no words: the header of ours has no comment, in which other programs name themselves.
+bool has_header_of_mesh(std::string_view bytes) {
+  return bytes.starts_with("ply\nformat binary_little_endian 1.0\nelement vertex ");
+}
+
 }  // namespace
+
+void check_is_own(const fs::path& path) {
+  int stream = 0;
+  if (what_has_the_name(path) != NameTaken::replaceable || open_to_read(path, stream) != 0) return;
+  std::string bytes(bytes_looked_at, '\0');
+  std::size_t got = 0;
+  const int error = read_at(stream, 0, bytes, got);
+  close_stream(stream);
+  bytes.resize(error == 0 ? got : 0);
+  if (bytes.empty() || has_header_of_mesh(bytes) ||
+      std::any_of(std::begin(own_marks), std::end(own_marks),
+                  [&](std::string_view mark) { return bytes.find(mark) != bytes.npos; }))
+    return;
+  throw FileError(path.string() +
+                  ": is there, was not written by condyle and is not replaced: name another, or remove it");
+}
 
 void check_replaces_none(std::span<const fs::path> written, std::span<const fs::path> read) {
   std::vector<FileId> known;

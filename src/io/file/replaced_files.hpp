@@ -10,6 +10,10 @@ namespace condyle::io {
 void check_replaces_none(std::span<const std::filesystem::path> written,
                          std::span<const std::filesystem::path> read);
 
+/// Throws FileError if there is a file of this name, not empty, that bears none of the marks of what Condyle writes: it is somebody's own, and lost
+/// if it were replaced.
+void check_is_own(const std::filesystem::path& path);
+
 /// Kind of the file that already has a result's name.
 enum class NameTaken {
   replaceable,  ///< nothing, a regular file, or a link to one or to nothing

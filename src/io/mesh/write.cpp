@@ -5,6 +5,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/version.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/float_valued.hpp"
 #include "io/mesh/parse.hpp"
@@ -70,7 +71,7 @@ void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {
   if (io::lower_case(path.extension().string()) == ".ply")
     write_ply(path, mesh);
   else
-    write_vtp(path, mesh, {}, {});
+    write_vtp(path, mesh, {}, {}, {.fields = {{"condyle_version", std::string(version)}}});
 }
 
 }  // namespace condyle::io
