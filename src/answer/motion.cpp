@@ -45,12 +45,20 @@ bool balance_frames(const contact::ElasticContact& elastic, const MotionRequest&
   auto balanced = motion::balance_along(elastic, X_FM, loads, request.balance, control);
   if (!balanced) return false;
   answer.balanced = std::move(*balanced);
+  answer.loads.resize(X_FM.size());
   for (std::size_t i = 0; i < X_FM.size(); ++i) {
     if (!X_FM[i]) continue;
-    if (answer.balanced[i]->carries_load())
-      X_FM[i] = answer.balanced[i]->X_FM;
-    else
+    if (!answer.balanced[i]->carries_load()) {
       X_FM[i].reset();
+      continue;
+    }
+    X_FM[i] = answer.balanced[i]->X_FM;
+    const contact::Load& load = loads[loads.size() == 1 ? 0 : i];
+    answer.loads[i] = load.on_mobile;
+    if (load.frame == BodyRole::mobile) {
+      const Eigen::Matrix3d R = X_FM[i]->linear();
+      answer.loads[i] = {R * load.on_mobile.force_n, R * load.on_mobile.moment_nmm};
+    }
   }
   return true;
 }

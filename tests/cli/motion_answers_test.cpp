@@ -94,7 +94,7 @@ TEST_F(Motion, LoadReportsTheMomentOnTheBodyThatTheJointFileNames) {
     EXPECT_EQ(json["contact"]["moment_on"], moment_on);
     EXPECT_EQ(json["translation_mm"], Json::array({0.2, -0.5, 0.0}));
     EXPECT_EQ(json["translation_frame"], "fixed");
-    const char* axes[] = {"moment_x_nmm", "moment_y_nmm", "moment_z_nmm"};
+    const char* axes[] = {"moment_in_fixed_x_nmm", "moment_in_fixed_y_nmm", "moment_in_fixed_z_nmm"};
     for (std::size_t i = 0; i < 3; ++i) {
       const double moment = json["fixed_surface"]["moment_nmm"][i].get<double>();
       EXPECT_EQ(curves.rows[0][curves.column(axes[i])], moment) << "as in the motion's answer";
@@ -166,7 +166,7 @@ TEST_F(Motion, FramesWithoutALoadAreLeftUnanswered) {
     for (std::size_t c = 1; c < curves.columns.size(); ++c)
       EXPECT_TRUE(std::isnan(curves.rows[row][c])) << row << curves.columns[c];
   for (const std::size_t row : {0u, 3u})
-    EXPECT_NEAR(curves.rows[row][curves.column("force_y_n")], -1000, 1e-5);
+    EXPECT_NEAR(curves.rows[row][curves.column("force_in_fixed_y_n")], -1000, 1e-5);
   const std::string text = run("motion cup.toml --motion rock.csv --loads loads.csv").out;
   EXPECT_NE(text.find("balanced in 2 of 3 frames"), text.npos) << text;
   EXPECT_NE(text.find("0.1 s: the load is zero along the free directions"), text.npos) << text;

@@ -66,7 +66,9 @@ TEST_F(MotionOptions, RulesAndCastingsAreThoseOfALoad) {
     for (const char* name :
          {"area_mm2", "mean_depth_mm", "max_depth_mm", "mean_pressure_mpa", "max_pressure_mpa"})
       EXPECT_EQ(value(name), surface[name].get<double>()) << options << " " << name;
-    EXPECT_EQ(value("force_y_n"), surface["force_n"][1].get<double>()) << options;
+    EXPECT_EQ(value(of_mobile ? "force_in_mobile_y_n" : "force_in_fixed_y_n"),
+              surface["force_n"][1].get<double>())
+        << options;
   }
   const auto centres = answer("--rule face_centre"), cut = answer("--rule cut_faces");
   EXPECT_NE(centres("area_mm2"), cut("area_mm2"));

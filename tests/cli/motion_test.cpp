@@ -28,12 +28,12 @@ const std::vector<std::string> contact_columns = {"time_s",
                                                   "centre_of_pressure_x_mm",
                                                   "centre_of_pressure_y_mm",
                                                   "centre_of_pressure_z_mm",
-                                                  "force_x_n",
-                                                  "force_y_n",
-                                                  "force_z_n",
-                                                  "moment_x_nmm",
-                                                  "moment_y_nmm",
-                                                  "moment_z_nmm"};
+                                                  "force_in_mobile_x_n",
+                                                  "force_in_mobile_y_n",
+                                                  "force_in_mobile_z_n",
+                                                  "moment_in_mobile_x_nmm",
+                                                  "moment_in_mobile_y_nmm",
+                                                  "moment_in_mobile_z_nmm"};
 
 /// Joints of the published model, and nothing written by hand but the compartments, which a model does not have.
 struct Published {
@@ -96,8 +96,9 @@ TEST_P(PublishedMotion, OfTheModelHasThePublishedCurves) {
     const NumberTable regions = csv_of(folder / "out/regions.csv");
     ASSERT_EQ(regions.rows.size(), 251u);
     for (std::size_t frame = 0; frame < 251; ++frame) {
-      for (const char* name : {"area_mm2", "force_x_n", "force_y_n", "force_z_n", "moment_x_nmm",
-                               "moment_y_nmm", "moment_z_nmm"}) {
+      for (const char* name :
+           {"area_mm2", "force_in_mobile_x_n", "force_in_mobile_y_n", "force_in_mobile_z_n",
+            "moment_in_mobile_x_nmm", "moment_in_mobile_y_nmm", "moment_in_mobile_z_nmm"}) {
         const double medial = regions.rows[frame][regions.column(std::string("medial_") + name)],
                      lateral = regions.rows[frame][regions.column(std::string("lateral_") + name)];
         // Sums of some 1500 faces in another order.
@@ -237,7 +238,8 @@ TEST_F(Motion, ALoadIsBalancedFrameAfterFrame) {
   const NumberTable curves = csv_of(folder / "out/curves.csv");
   BallInCup known{25, 24.8, 0, 6.321839};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(curves.rows[i][curves.column("force_y_n")], -1000 - 500.0 * static_cast<double>(i), 1e-5);
+    EXPECT_NEAR(curves.rows[i][curves.column("force_in_fixed_y_n")], -1000 - 500.0 * static_cast<double>(i),
+                1e-5);
     known.d = -curves.rows[i][curves.column("y_mm")];
     // Edges of 1.5 mm: ball and cup sag by up to edge^2 / (8 R) = 0.012 mm each.
     const double sag = 2 * 0.012;

@@ -59,6 +59,8 @@ struct MotionRequest {
 struct MotionAnswer {
   std::vector<std::optional<motion::FrameContact>> frames = {};
   std::vector<std::optional<contact::BalancedPose>> balanced = {};  ///< none if no load was requested
+  /// What the contact of each frame carries, on the mobile body, in F, about the origin of M; none if no load was requested.
+  std::vector<std::optional<contact::Wrench>> loads = {};
   /// Frames whose own load is zero along what is free, ascending: no pose was searched for, and they have no answer.
   std::vector<std::size_t> without_load = {};
   /// Contact between the samples too; samples are numbered as the frames.

@@ -36,17 +36,25 @@ STYLES = ("-", "--", ":")
 UNITS = {"s": "s", "deg": "°", "mm": "mm", "percent": "%", "mm2": "mm²", "mpa": "MPa", "n": "N", "nmm": "N mm"}
 
 
+def force_columns(table: Table) -> List[str]:
+    """The three components of the contact's force, whose names say in which body's frame they are; none if there is none."""
+    for stem in ("force", "force_in_mobile", "force_in_fixed"):
+        if f"{stem}_x_n" in table:
+            return [f"{stem}_{axis}_n" for axis in "xyz"]
+    return []
+
+
 def column(table: Table, name: str) -> Array:
-    """A column by its name; `force_n` is the length of `force_x_n`, `force_y_n`, `force_z_n`."""
+    """A column by its name; `force_n` is the length of the contact's force."""
     if name == "force_n" and name not in table:
-        parts = [np.asarray(table[f"force_{axis}_n"], dtype=np.float64) for axis in "xyz"]
+        parts = [np.asarray(table[part], dtype=np.float64) for part in force_columns(table)]
         return np.asarray(np.sqrt(sum(part**2 for part in parts)))
     return np.asarray(table[name], dtype=np.float64)
 
 
 def has(table: Table, quantity: QuantityName) -> bool:
     """Whether a table has the columns of a quantity."""
-    return all(name in table or (name == "force_n" and "force_x_n" in table)
+    return all(name in table or (name == "force_n" and bool(force_columns(table)))
                for name, _ in QUANTITIES[quantity].columns)
 
 

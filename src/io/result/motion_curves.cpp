@@ -33,19 +33,35 @@ class CurveColumns {
       add(name + axes[static_cast<std::size_t>(axis)] + unit, frames,
           [&](const Frame& frame) { return value(frame)[axis]; });
   }
+  void add_wrench(const std::string& of, const std::string& in,
+                  const std::vector<std::optional<contact::Wrench>>& frames) {
+    add_vector(of + "force" + in, "_n", frames, [](const contact::Wrench& w) { return w.force_n; });
+    add_vector(of + "moment" + in, "_nmm", frames, [](const contact::Wrench& w) { return w.moment_nmm; });
+  }
 
  private:
   Curves& curves_;
   std::size_t frames_;
 };
 
-/// With both castings, the mean load on the mobile body, in its frame; with one, the load on the casting body in its
-/// own.
+/// The body that the forces of an answer act on, in whose joint frame they are, as in names of columns: "_in_mobile".
+std::string frame_word(const ContactEntry& contact) {
+  return contact.casting == contact::Casting::fixed ? "_in_fixed" : "_in_mobile";
+}
+
+/// A wrench on the mobile body in F, its moment about the origin of M, as one on that body, in its frame, about its origin.
+contact::Wrench on_body_of_forces(const ContactEntry& contact, const Pose& X_FM, const contact::Wrench& of) {
+  if (contact.casting == contact::Casting::fixed)
+    return {-of.force_n, -of.moment_nmm - X_FM.translation().cross(of.force_n)};
+  const Eigen::Matrix3d R_MF = X_FM.linear().transpose();
+  return {R_MF * of.force_n, R_MF * of.moment_nmm};
+}
+
+/// With both castings, the mean load on the mobile body; with one, the load on the casting body.
 contact::Wrench load_of(const ContactEntry& contact, const motion::FrameContact& frame) {
   if (contact.casting != contact::Casting::both)
     return {frame.surface.totals.force_n, frame.surface.totals.moment_nmm};
-  const Eigen::Matrix3d R_MF = frame.X_FM.linear().transpose();
-  return {R_MF * frame.on_mobile.force_n, R_MF * frame.on_mobile.moment_nmm};
+  return on_body_of_forces(contact, frame.X_FM, frame.on_mobile);
 }
 
 /// A frame's totals, of all faces or of a region's, and the load that goes with them.
@@ -74,8 +90,10 @@ void add_contact(const MotionQuestion& question, CurveColumns& columns, const st
   add("max_pressure_mpa", &contact::ContactTotals::max_pressure_mpa);
   add_centre("centre_of_pressure", &contact::ContactTotals::centre_of_pressure);
   const double sign = question.contact.moment_on == MomentOn::casting ? 1 : -1;
-  columns.add_vector(prefix + "force", "_n", frames, [](const FrameTotals& f) { return f.load.force_n; });
-  columns.add_vector(prefix + "moment", "_nmm", frames,
+  const std::string in = frame_word(question.contact);
+  columns.add_vector(prefix + "force" + in, "_n", frames,
+                     [](const FrameTotals& f) { return f.load.force_n; });
+  columns.add_vector(prefix + "moment" + in, "_nmm", frames,
                      [&](const FrameTotals& f) { return Vec3(sign * f.load.moment_nmm); });
 }
 
@@ -144,6 +162,11 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
     });
     columns.add("residual_n", answer.balanced,
                 [](const contact::BalancedPose& pose) { return pose.residual.force_n.norm(); });
+    std::vector<std::optional<contact::Wrench>> loads(frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      if (frames[i] && answer.loads[i])
+        loads[i] = on_body_of_forces(question.contact, frames[i]->X_FM, *answer.loads[i]);
+    columns.add_wrench("load_", frame_word(question.contact), loads);
   }
   return curves;
 }
@@ -186,10 +209,13 @@ Curves ligament_curves_of(const MotionQuestion& question, const MotionAnswer& an
       sum.force_n += ligament.frames[i]->force_n;
       sum.moment_nmm += ligament.frames[i]->moment_nmm;
     }
+    if (!answer.frames[i]) sums[i].reset();
+    if (!sums[i]) continue;
+    const Pose& X_FM = answer.frames[i]->X_FM;
+    sum.moment_nmm -= X_FM.translation().cross(sum.force_n);
+    sum = on_body_of_forces(question.contact, X_FM, sum);
   }
-  columns.add_vector("ligaments_force", "_n", sums, [](const contact::Wrench& sum) { return sum.force_n; });
-  columns.add_vector("ligaments_moment", "_nmm", sums,
-                     [](const contact::Wrench& sum) { return sum.moment_nmm; });
+  columns.add_wrench("ligaments_", frame_word(question.contact), sums);
   return curves;
 }
 

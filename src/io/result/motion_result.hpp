@@ -43,7 +43,7 @@ Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answ
 /// As here, or as OpenSim names them: NAME.length in m, NAME.strain, NAME.force_spring.
 enum class LigamentNames { ours, of_opensim };
 /// Length, strain and tension of each ligament; its speed, damping and total force if any has damping and speeds are known; and under names
-/// of ours the force and moment of all on the mobile body, in the fixed body's joint frame, the moment about its origin. Nothing where a
+/// of ours the force and moment of all on the body and in the frame of the contact's forces, which the names say. Nothing where a
 /// length is not known.
 Curves ligament_curves_of(const MotionQuestion& question, const MotionAnswer& answer, LigamentNames names);
 

@@ -21,9 +21,9 @@ TABLE = {
     "area_mm2": [10.0, np.nan, 30.0],
     "max_depth_mm": [0.5, 0.6, 0.7],
     "mean_depth_mm": [0.1, 0.2, 0.3],
-    "force_x_n": [3.0, 0.0, 0.0],
-    "force_y_n": [4.0, 0.0, 2.0],
-    "force_z_n": [0.0, 7.0, 0.0],
+    "force_in_fixed_x_n": [3.0, 0.0, 0.0],
+    "force_in_fixed_y_n": [4.0, 0.0, 2.0],
+    "force_in_fixed_z_n": [0.0, 7.0, 0.0],
 }
 
 
