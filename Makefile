@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench bench-summary verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate
+  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -68,7 +68,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) static-test npm-test windows-test verify label-limits rotation-queries package clang sanitize sanitize-thread
+	@$(MAKE) static-test npm-test windows-test verify label-limits rotation-queries mujoco-limits package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -201,6 +201,14 @@ npm: page-core
 npm-test: npm
 	@cmake --build --preset release --target condyle_cli
 	@tests/npm/installed.sh build/release/condyle out/npm/condyle-*.tgz
+
+# Limits written for MuJoCo, posed by MuJoCo itself: the npm package mujoco-js. Without it they are not.
+mujoco-limits:
+	@scripts/install_dependencies.sh node
+	@cmake --build --preset release --target condyle_cli
+	@mkdir -p build/mujoco && cp tests/npm/mujoco.mjs build/mujoco
+	@cd build/mujoco && if npm install --no-audit --no-fund --silent mujoco-js@0.0.7; then node mujoco.mjs ../release/condyle; \
+	 else echo "mujoco-limits: skipped: npm has no mujoco-js"; fi
 
 # The command for Windows on x86-64, compiled here by mingw-w64: build/windows/condyle.exe.
 windows: command_dependencies

@@ -82,6 +82,10 @@ CLI::Option* add_limits(CLI::App& command, RomArguments& given) {
       "With --write-limits: where bone ends a motion, or where a living hip is expected to if studies say so",
       "bony")
       ->needs(write);
+  add_choice(command, "--angle-unit", given.limits.angles,
+             {{"degree", io::AngleUnit::degrees}, {"radian", io::AngleUnit::radians}},
+             "The unit of angles in an .xml, as <compiler angle=...> of your model has it", "degree")
+      ->needs(write);
   add_choice(command, "--stop", given.limits.stop,
              {{"limit", io::StopForce::limit}, {"linear", io::StopForce::linear}},
              "The force of an .osim: CoordinateLimitForce, or CoordinateLinearStopForce of OpenSim 4.6",
@@ -124,8 +128,9 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   note_contact(range_request_notes(request), loaded, options.strictness);
   io::Provenance from = provenance_of(options, loaded, command, {options.follow.record});
-  std::vector<TurningCoordinate> coordinates;
-  if (!options.limits.path.empty()) coordinates = io::limit_coordinates(loaded, options.limits, &from);
+  io::LimitCoordinates known_by;
+  if (!options.limits.path.empty())
+    known_by = io::limit_coordinates(loaded, options.limits, &from, !options.range.translation.empty());
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) io::check_rom_folder(options.out, &from);
   if (!options.limits.path.empty() && !options.out.empty() &&
@@ -139,12 +144,12 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   note_all(answer.notes);
   io::RomResult result = io::rom_result_of(answer, notes, &from);
   std::optional<LimitBoxRecord> box;
-  if (!coordinates.empty()) {
+  if (!known_by.coordinates.empty()) {
     box = answered(options, [&](const Control& control) {
-      return limit_box_record(loaded, answer, request, coordinates, options.limits.source, control);
+      return io::limit_box(known_by, loaded, answer, request, options.limits.source, control);
     });
     result.box = &*box;
-    io::write_limits(options.limits, *box, loaded, &from);
+    io::write_limits(options.limits, *box, loaded, known_by, &from);
     note("wrote " + options.limits.path.string());
   }
   if (!options.out.empty())
@@ -161,7 +166,7 @@ void add_rom(CLI::App& app) {
       "Example: condyle sample hip --out sample\n"
       "         condyle rom sample/hip.toml --motion flexion --motion fadir\n"
       "         condyle rom sample/hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out range\n"
-      "         condyle rom sample/hip.toml --write-limits hip.xml\n"
+      "         condyle rom sample/hip.toml --write-limits hip.xml --angle-unit radian\n"
       "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
   auto options = std::make_shared<RomArguments>();
   add_joint(*command, *options);
@@ -211,7 +216,7 @@ void add_rom(CLI::App& app) {
               {"Centre not held", follow_names()},
               {"Contact",
                {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--allow-depth"}},
-              {"For other programs", {"--write-limits", "--limits", "--stop", "--model"}},
+              {"For other programs", {"--write-limits", "--limits", "--stop", "--model", "--angle-unit"}},
               {"Output", {"--verbose", "--crate", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { rom_command(*options, *command); });
 }

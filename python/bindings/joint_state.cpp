@@ -35,8 +35,8 @@ constexpr bool is_one_of = (std::is_same_v<T, Of> || ...);
 template <class T, class Each>
 void members(T& value, const Each& each) {
   using Struct = std::remove_const_t<T>;
-  if constexpr (is_one_of<Struct, TriMesh, BodyImage, ImageCut, CutPlane, DescribedPart, Sphere,
-                          FrameDirections, FemurLandmarks, CentreFit, JointCoordinates, LikelyUnit,
+  if constexpr (is_one_of<Struct, TriMesh, CoordinateSystem, BodyImage, ImageCut, CutPlane, DescribedPart,
+                          Sphere, FrameDirections, FemurLandmarks, CentreFit, JointCoordinates, LikelyUnit,
                           BoundingBox, BodyPlacement, contact::NormalDepthOptions, contact::HalfSpace,
                           io::RegionEntry, io::FileDigest, RepairDone, io::LoadedJoint, Person>) {
     auto& [a, b] = value;
@@ -60,7 +60,7 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, BodyPart, CylinderFit, io::LayerEntry, LigamentWrap>) {
     auto& [a, b, c, d, e, f, g] = value;
     each(a, b, c, d, e, f, g);
-  } else if constexpr (is_one_of<Struct, PosedPart, io::MeshEntry>) {
+  } else if constexpr (is_one_of<Struct, PosedPart, io::MeshEntry, io::ZeroOfColumns>) {
     auto& [a, b, c, d, e, f, g, h] = value;
     each(a, b, c, d, e, f, g, h);
   } else if constexpr (is_one_of<Struct, PartParameter, io::ContactEntry, io::ColumnOfCoordinate>) {
@@ -72,9 +72,12 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else if constexpr (is_one_of<Struct, Joint, io::JointFile>) {
+  } else if constexpr (is_one_of<Struct, Joint>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (is_one_of<Struct, io::JointFile>) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = value;
+    each(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   } else if constexpr (is_one_of<Struct, JointDescription, plan::ReverseShoulder>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);

@@ -110,18 +110,23 @@ motion::MapGrid grid_in(const py::tuple& given) {
 }
 
 py::dict write_limits(const RangeHandle& handle, const JointHandle& joint, const std::filesystem::path& path,
-                      bool is_living, bool is_linear, const std::optional<std::filesystem::path>& model,
-                      const std::optional<py::tuple>& grid, const py::object& progress) {
+                      bool is_living, bool is_linear, bool in_radians,
+                      const std::optional<std::filesystem::path>& model, const std::optional<py::tuple>& grid,
+                      const py::object& progress) {
   const io::LimitFile file{path, is_linear ? io::StopForce::linear : io::StopForce::limit, model,
-                           is_living ? LimitSource::living : LimitSource::bony};
-  const auto coordinates = io::limit_coordinates(joint.loaded, file, nullptr);
+                           is_living ? LimitSource::living : LimitSource::bony,
+                           in_radians ? io::AngleUnit::radians : io::AngleUnit::degrees};
+  const io::LimitCoordinates known_by =
+      io::limit_coordinates(joint.loaded, file, nullptr, handle.request.translation_mm.has_value());
   RangeRequest beside;
   if (grid) beside.map = grid_in(*grid);
   const RangeAnswer found = further_answered(handle, beside, progress);
+  RangeRequest request = handle.request;
+  if (grid) request.map = beside.map;
   const LimitBoxRecord box = *with_progress(progress, [&](const Control& control) {
-    return limit_box_record(handle.asked, found, handle.request, coordinates, file.source, control);
+    return io::limit_box(known_by, handle.asked, found, request, file.source, control);
   });
-  io::write_limits(file, box, joint.loaded, nullptr);
+  io::write_limits(file, box, joint.loaded, known_by, nullptr);
   return object_of(io::json_of(box, {io::frame_of(handle.result()), handle.answer.joint.anatomy}));
 }
 

@@ -227,8 +227,8 @@ def path_limit(joint: Joint, waypoints: ArrayLike, tolerance_deg: float, options
 def motion_map(range: RangeOfMotion, row: tuple[int, float, float, float], column: tuple[int, float, float, float],
                vary: int, start_deg: float, negative_deg: float, positive_deg: float, progress: Progress
                ) -> dict[str, Any]: ...
-def write_limits(range: RangeOfMotion, joint: Joint, path: str, is_living: bool, is_linear: bool, model: Optional[str],
-                 grid: Optional[tuple[tuple[tuple[int, float, float, float], tuple[int, float, float, float]], int]],
+def write_limits(range: RangeOfMotion, joint: Joint, path: str, is_living: bool, is_linear: bool, in_radians: bool,
+                 model: Optional[str], grid: Optional[tuple[tuple[tuple[int, float, float, float], tuple[int, float, float, float]], int]],
                  progress: Progress) -> dict[str, Any]: ...
 def limit_bands(range: RangeOfMotion, motions: list[tuple[Any, ...]], band: Band, progress: Progress) -> list[dict[str, Any]]: ...
 def write_report(range: RangeOfMotion, joint: Joint, path: str, title: Optional[str], band: Band, past_deg: Optional[float],

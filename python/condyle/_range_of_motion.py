@@ -21,7 +21,7 @@ from ._motion_map import MotionMap, map_of
 from ._native import RangeOfMotion as NativeRange
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
-from ._words import FEWEST_SAMPLES, MOST_SAMPLES, BearingRule, ClockPlane, LimitSource, Path, Progress, StopForce, band_of, count
+from ._words import FEWEST_SAMPLES, MOST_SAMPLES, AngleUnit, BearingRule, ClockPlane, LimitSource, Path, Progress, StopForce, band_of, count
 from ._words import number, path_of, progress_of, report_labels, text_of, word
 
 if TYPE_CHECKING:
@@ -204,12 +204,12 @@ class RangeOfMotion(HasLimits, Unchanging):
 
     def write_limits(self, path: Path, *, limits: LimitSource = "bony", column: Optional[Mapping[str, Sequence[float]]] = None,
                      row: Optional[Mapping[str, Sequence[float]]] = None, vary: Optional[str] = None, stop: StopForce = "limit",
-                     model: Optional[Path] = None, progress: Progress = None) -> dict[str, object]:
+                     model: Optional[Path] = None, angle_unit: AngleUnit = "degree", progress: Progress = None) -> dict[str, object]:
         """Writes limits that hold each coordinate by itself, for another program, and returns them as `written_limits` of rom.json.
 
         The ending of `path` decides: .osim of the model that the joint was read from, a copy of `model` if that is given, with `stop` "limit"
-        (CoordinateLimitForce) or "linear" (CoordinateLinearStopForce); .xml of MuJoCo; .csv of coupled limits. `limits` "living": where a
-        living hip is expected to end, if studies say so. `column`, `row` and `vary` are of the map that the limits are held against, as
+        (CoordinateLimitForce) or "linear" (CoordinateLinearStopForce); .xml of MuJoCo, with angles in `angle_unit`; .csv of coupled limits.
+        `limits` "living": where a living hip is expected to end, if studies say so. `column`, `row` and `vary` are of the map that the limits are held against, as
         :meth:`map`; without them a grid of 10 degrees. UsageError for another ending or a joint without coordinates of a model.
 
         C++: `condyle rom --write-limits`.
@@ -220,14 +220,14 @@ class RangeOfMotion(HasLimits, Unchanging):
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     said = rom.write_limits(os.path.join(folder, "hip.xml"), column={"flexion": (0, 100, 50)}, row={"adduction": (-20, 20, 20)})
         >>> [side["coordinate"] for side in said["coordinates"]], said["error"]["points"]
-        (['flexion', 'adduction', 'internal_rotation'], 9)
+        (['hip_r_flexion', 'hip_r_adduction', 'hip_r_internal_rotation'], 9)
         """
         if (column is None) != (row is None) or (column is None and vary is not None):
             raise UsageError("column: column and row are given together, and vary with them")
         grid = None if column is None or row is None else self._grid(column, row, vary)
         return _native.write_limits(self._native, self._joint._native, path_of(path), word(limits, "limits", LimitSource) == "living",
-                                    word(stop, "stop", StopForce) == "linear", None if model is None else path_of(model, "model"), grid,
-                                    progress_of(progress))
+                                    word(stop, "stop", StopForce) == "linear", word(angle_unit, "angle_unit", AngleUnit) == "radian",
+                                    None if model is None else path_of(model, "model"), grid, progress_of(progress))
 
     def _grid(self, column: Mapping[str, Sequence[float]], row: Mapping[str, Sequence[float]], vary: Optional[str]
               ) -> tuple[tuple[tuple[int, float, float, float], tuple[int, float, float, float]], int]:

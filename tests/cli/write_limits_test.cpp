@@ -115,18 +115,17 @@ TEST_F(WrittenLimits, OfMuJoCoTurnAboutTheModelsAxesInItsSense) {
   const auto [forwards, backwards] = duct_flexion_deg();
   const std::string line = text.substr(text.find("<joint name=\"flex\""));
   double x = 0, y = 0, z = 0, low = 0, high = 0;
-  ASSERT_EQ(
-      std::sscanf(
-          line.c_str(),
-          "<joint name=\"flex\" type=\"hinge\" axis=\"%lf %lf %lf\" limited=\"true\" range=\"%lf %lf\"/>", &x,
-          &y, &z, &low, &high),
-      5)
+  ASSERT_EQ(std::sscanf(line.c_str(),
+                        "<joint name=\"flex\" type=\"hinge\" axis=\"%lf %lf %lf\" pos=\"0 0 0\" "
+                        "limited=\"true\" range=\"%lf %lf\"/>",
+                        &x, &y, &z, &low, &high),
+            5)
       << text;
   EXPECT_EQ((Vec3(x, y, z)), -Vec3::UnitZ());
   EXPECT_NEAR(low, -forwards, 1e-9);
   EXPECT_NEAR(high, backwards, 1e-9);
   EXPECT_NE(text.find("<mujocoinclude>"), std::string::npos);
-  EXPECT_NE(text.find("range and ref are degrees"), std::string::npos);
+  EXPECT_EQ(text.find("<!-- angles are degrees, of <compiler angle=\"degree\"/>, MuJoCo's default"), 0u);
 }
 
 TEST_F(WrittenLimits, OfAMapAreItsFreeIntervalsInTheModelsCoordinates) {
@@ -233,8 +232,8 @@ TEST_F(WrittenLimits, AreTheLivingOnesOnlyWhereStudiesSayOne) {
         EXPECT_EQ(sides[i][end], bony["written_limits"]["coordinates"][i][end]);
       }
     }
-  // The joint has names of no model: its own angles.
-  EXPECT_EQ(sides[0]["coordinate"], "flexion");
+  // The joint has names of no model: its own angles, under names that no other joint of a body has.
+  EXPECT_EQ(sides[0]["coordinate"], "hip_r_flexion");
   EXPECT_NE(text_of(folder_ / "hip.xml").find("living, bone 1"), std::string::npos);
 }
 
@@ -250,11 +249,51 @@ TEST_F(WrittenLimits, AreRefusedInOneLine) {
   std::ofstream(folder_ / "other.toml") << text_of(folder_ / "bare.toml")
                                         << "[recorded_motion]\nflexion = \"hip_r/flexion\"\nadduction = "
                                            "\"hip_r/add\"\ninternal_rotation = \"hip_r/rot\"\n";
+  std::string bare = text_of(folder_ / "bare.toml");
+  std::ofstream(folder_ / "free.toml") << bare.replace(bare.find("\"ball\""), 6, "\"free\"")
+                                       << "[recorded_motion]\nflexion = \"flex\"\nx = { column = \"tx\", "
+                                          "unit = \"m\" }\n";
+  std::ofstream(folder_ / "mine.csv") << "angle,limit\n1,2\n";
+  const auto changed_model = [&](const char* name, std::string_view from, std::string_view to) {
+    std::string text = text_of(folder_ / "model.osim");
+    std::ofstream(folder_ / name) << text.replace(text.find(from), from.size(), to);
+  };
+  changed_model(
+      "coupled.osim", "</Model>",
+      "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\"><isEnforced>true</isEnforced>"
+      "<coupled_coordinates_function><LinearFunction><coefficients>1 0</coefficients></LinearFunction>"
+      "</coupled_coordinates_function><independent_coordinate_names>add</independent_coordinate_names>"
+      "<dependent_coordinate_name>rot</dependent_coordinate_name></CoordinateCouplerConstraint>"
+      "</objects></ConstraintSet></Model>");
+  constexpr std::string_view range = "-2 2", axis = "<axis>0 0 -1</axis>";
+  changed_model("infinite.osim", range, "-inf inf");
+  changed_model("nan.osim", range, "nan 2");
+  changed_model("word.osim", range, "abc");
+  changed_model("one.osim", range, "1");
+  changed_model("sine.osim", axis, "<axis>0 0 -1</axis><Sine name=\"function\"/>");
+  changed_model("sense.osim", axis, "<axis>0 0 1</axis>");
+  changed_model("slope.osim", axis,
+                "<axis>0 0 -1</axis><LinearFunction name=\"function\"><coefficients>1 0.1</coefficients>"
+                "</LinearFunction>");
   const struct {
     std::string arguments;
     int exit_code;
     std::string line;
   } cases[] = {
+      {"hip.toml --write-limits hip.osim --model coupled.osim", 3, "constraint 'c' moves coordinate 'rot'"},
+      {"hip.toml --write-limits hip.osim --model infinite.osim", 3, "infinite.osim: line "},
+      {"hip.toml --write-limits hip.osim --model nan.osim", 3, "nan.osim: line "},
+      {"hip.toml --write-limits hip.osim --model word.osim", 3, "word.osim: line "},
+      {"hip.toml --write-limits hip.osim --model one.osim", 3, "one.osim: line "},
+      {"hip.toml --write-limits hip.osim --model sine.osim", 3, "sine.osim: line "},
+      {"hip.toml --write-limits hip.osim --model sense.osim", 3,
+       "coordinate 'flex' turns the joint otherwise"},
+      {"hip.toml --write-limits hip.osim --model slope.osim", 3, "joint 'hip_r' stands at zero otherwise"},
+      {"hip.toml --write-limits model.osim", 3, "model.osim: is there, was not written by condyle"},
+      {"hip.toml --write-limits mine.csv", 3, "mine.csv: is there, was not written by condyle"},
+      {"hip.toml --write-limits hip.csv --angle-unit radian", 2, "the unit of angles is chosen of an .xml"},
+      {"posed.toml --write-limits posed.xml", 2, "the model poses this joint by its functions"},
+      {"free.toml --write-limits free.xml", 2, "the translation of this joint moves by [recorded_motion]"},
       {"hip.toml --write-limits hip.txt", 2, "limits are written as .osim, .xml of MuJoCo or .csv"},
       {"hip.toml --write-limits hip.xml --model model.osim", 2, "a copy of a model is an .osim"},
       {"hip.toml --write-limits hip.xml --stop linear", 2, "a linear stop is of an .osim"},

@@ -140,6 +140,7 @@ struct JointFile {
   PoseDegrees reference_pose = {};       ///< digit by digit as the file gives it
   std::optional<ContactEntry> contact = {};                   ///< of the [contact] table
   std::optional<RecordedMotionMapping> recorded_motion = {};  ///< of the [recorded_motion] table
+  std::optional<ZeroOfColumns> recorded_zero = {};            ///< of its table zero
   std::optional<plan::Implant> implant = {};                  ///< of the [implant] table
   FileDigest digest = {};
   std::vector<std::string> processing = {};  ///< one line each: what was corrected in reading

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/joint_coordinates.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/pose.hpp"
@@ -72,6 +73,20 @@ struct ColumnOfCoordinate {
   /// are noted.
   std::optional<std::array<double, 2>> range = {};
   bool is_locked = false;  ///< by that model, at `otherwise`; likewise
+};
+
+/// Where columns of coordinates are zero and what their angles turn about, whatever the joint's own zero, axes and side are. With a the
+/// coordinates by the columns and a0 those by columns of 0, the mobile body C of whoever recorded them lies in the fixed one P at
+///
+///     X_PC(a) = X_PZ pose_at(a) pose_at(a0)^-1 X_PZ^-1 X_PC
+struct ZeroOfColumns {
+  CoordinateSystem system = {};
+  TranslationFrame translation_frame = TranslationFrame::fixed;
+  Pose X_PZ = Pose::Identity(), X_PC = Pose::Identity();  ///< mm
+  Pose X_AP = Pose::Identity(),
+       X_BC = Pose::Identity();  ///< these bodies in the frames of the joint's own meshes
+  /// What load_joint() makes of them: X_FM = X_FZ pose_at(a) X_YM. Exactly the identity if the joint's zero and axes are these.
+  Pose X_FZ = Pose::Identity(), X_YM = Pose::Identity();
 };
 
 /// Columns with poses of both bodies, 16 per body, in one frame L of a laboratory or scanner.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "answer/limit_facts.hpp"
 #include "answer/living_limit.hpp"
 #include "condyle/error.hpp"
 
@@ -43,6 +44,20 @@ void check_coordinates(const Joint& joint, std::span<const TurningCoordinate> co
   }
 }
 
+/// Cartilage and the like, on either body.
+bool is_on_bearing(const Joint& joint, const motion::ContactWitness& contact) {
+  const auto slides = [](const BodyPart* part) { return part && part->contact == PartContact::bearing; };
+  return contact.kind == motion::ContactKind::bearing ||
+         slides(part_of(joint.fixed, contact.fixed_feature)) ||
+         slides(part_of(joint.mobile, contact.mobile_feature));
+}
+
+LimitSource source_of(const Joint& joint, const motion::Limit& end) {
+  if (end.ligament) return LimitSource::ligament;
+  if (end.kind() == motion::ContactKind::cut) return LimitSource::cut;
+  return end.contact && is_on_bearing(joint, *end.contact) ? LimitSource::bearing : LimitSource::bony;
+}
+
 BoxEndRecord end_record(const RangeAnswer& answer, std::size_t i, const TurningCoordinate& coordinate,
                         LimitSource source) {
   const motion::MotionLimit& limit = answer.limits[i];
@@ -50,7 +65,7 @@ BoxEndRecord end_record(const RangeAnswer& answer, std::size_t i, const TurningC
     return coordinate_at(coordinate, sign_of(limit.motion.sense) * turned.degrees());
   };
   BoxEndRecord end{.limit_deg = value(limit.end.turned),
-                   .source = limit.end.ligament ? LimitSource::ligament : LimitSource::bony,
+                   .source = source_of(answer.joint, limit.end),
                    .reason = limit.end.reason,
                    .bony_deg = value(limit.end.turned)};
   if (const auto living = living_limit(answer, i);

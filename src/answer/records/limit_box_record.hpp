@@ -29,10 +29,12 @@ enum class LimitSource : std::uint8_t {
   bony,
   living,    ///< the end that is expected of a living hip with this bone: LivingLimit::expected
   ligament,  ///< the end that a ligament of the joint makes before bone does
+  bearing,   ///< where bearing surfaces meet, such as cartilage
+  cut,       ///< on a face that closes a bone where its image ends, which is no end of the joint
 };
 /// As in files: "bony".
 constexpr std::string_view name_of(LimitSource source) noexcept {
-  constexpr std::string_view names[] = {"bony", "living", "ligament"};
+  constexpr std::string_view names[] = {"bony", "living", "ligament", "bearing", "cut"};
   return names[static_cast<std::size_t>(source)];
 }
 
@@ -40,7 +42,7 @@ constexpr std::string_view name_of(LimitSource source) noexcept {
 struct BoxEndRecord {
   double limit_deg;
   LimitSource source;
-  motion::LimitReason reason;  ///< of bone; without contact it is the end of what was searched
+  motion::LimitReason reason;  ///< of contact; without any it is the end of what was searched
   double bony_deg;
 };
 struct BoxSideRecord {
@@ -69,8 +71,14 @@ struct BoxErrorRecord {
       forbidden_deg;  ///< of a free pose the angle that is farthest past its end of the box is past it by at most this
   std::optional<std::vector<double>> forbidden_at_deg;
 };
+/// Whose zero, axes and side the angles of a box have, if they differ: ZeroOfColumns.
+enum class BoxZero : std::uint8_t { joint, columns };
+constexpr std::string_view name_of(BoxZero zero) noexcept {
+  return zero == BoxZero::joint ? "joint" : "columns";
+}
 struct LimitBoxRecord {
   std::vector<BoxSideRecord> coordinates;
+  BoxZero zero = BoxZero::joint;
   std::optional<Vec3> held_translation_mm;
   std::optional<BoxErrorRecord> error;  ///< empty of a hinge, whose limits are not coupled
   /// The map that it was held against; null of a hinge.
@@ -102,7 +110,7 @@ inline constexpr auto table<BoxErrorRecord> =
 template <>
 inline constexpr auto table<LimitBoxRecord> = record("LimitBox",
                                                      "Limits that hold each coordinate by itself.",
-                                                     CONDYLE_KEYS(LimitBoxRecord, coordinates,
+                                                     CONDYLE_KEYS(LimitBoxRecord, coordinates, zero,
                                                                   held_translation_mm, error));
 
 }  // namespace condyle

@@ -553,9 +553,14 @@ JointFile joint_file_of(std::string_view text, const std::filesystem::path& path
     refuse_cut_contact(*table, "fixed_part", out.contact->fixed_part, BodyRole::fixed, joint.parts);
     refuse_cut_contact(*table, "mobile_part", out.contact->mobile_part, BodyRole::mobile, joint.parts);
   }
-  if (auto table = file.table("recorded_motion"))
+  if (auto table = file.table("recorded_motion")) {
+    if (auto zero = table->table("zero"))
+      out.recorded_zero = io::zero_of_columns(std::move(*zero), mm_per(joint.units));
     out.recorded_motion = io::recorded_motion_mapping(
         *table, io::coordinate_names_of(joint.kind, joint.anatomy), path.parent_path());
+    if (out.recorded_zero && !std::holds_alternative<std::vector<ColumnOfCoordinate>>(*out.recorded_motion))
+      table->fail("zero", "is of columns of coordinates: poses have none");
+  }
   if (auto table = file.table("implant")) out.implant = implant_of_joint(*table, joint);
   refuse_other_names(file);
   file.finish();

@@ -13,6 +13,7 @@
 #include "io/joint/append_mesh.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/mesh/polygon_rule.hpp"
+#include "io/motion/column_zero.hpp"
 #include "io/result/repair_text.hpp"
 #include "mesh/enclosed_volume.hpp"
 
@@ -188,7 +189,11 @@ LoadedJoint load_joint(JointFile file) {
   JointReport report{
       std::move(file), std::move(fixed->reports), std::move(mobile->reports), std::move(made.placement), {}};
   report.processing = processing_of(report);
-  return {std::move(made.joint), std::move(report)};
+  LoadedJoint loaded{std::move(made.joint), std::move(report)};
+  if (auto& zero = loaded.report.file.recorded_zero)
+    zero = io::zero_in_joint(
+        *zero, std::get<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion), loaded);
+  return loaded;
 }
 
 LoadedJoint read_joint(const std::filesystem::path& path) {

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "condyle/error.hpp"
+#include "condyle/make_joint.hpp"
 #include "io/joint/mesh_path.hpp"
+#include "io/joint/pose_matrix.hpp"
 
 namespace condyle::io {
 namespace {
@@ -65,7 +68,36 @@ PosesOfModel poses_of_model(TomlTable& table, const std::filesystem::path& folde
   return out;
 }
 
+Pose pose_of(TomlTable& table, std::string_view key, double mm) {
+  const auto rows = table.sixteen(key);
+  if (!rows) return Pose::Identity();
+  try {
+    Pose X = io::pose_of_rows(*rows).X;
+    X.translation() *= mm;
+    return X;
+  } catch (const UsageError& error) {
+    table.fail(key, error.what());
+  }
+}
+
 }  // namespace
+
+ZeroOfColumns zero_of_columns(TomlTable table, double mm) {
+  const std::size_t joint = table.required_word("joint", {"hip", "knee", "ankle", "elbow", "shoulder"});
+  const Side side = table.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
+  const auto point = [&](std::string_view key) { return table.required(key, table.triple(key)); };
+  const Vec3 centre = mm * point("centre"), anterior = point("anterior"), superior = point("superior");
+  ZeroOfColumns zero{.system = {all_anatomies[joint], side}};
+  try {
+    zero.X_PZ = frame_from_axes(centre, anterior, superior);
+  } catch (const UsageError& error) {
+    table.fail("anterior", error.what());
+  }
+  zero.X_PC = pose_of(table, "pose", mm);
+  zero.X_AP = pose_of(table, "fixed", mm), zero.X_BC = pose_of(table, "mobile", mm);
+  table.finish();
+  return zero;
+}
 
 RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates,
                                               const std::filesystem::path& folder) {

@@ -15,4 +15,7 @@ namespace condyle::io {
 RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates,
                                               const std::filesystem::path& folder);
 
+/// Its table zero, lengths in units of `mm`: docs/motion-files.md.
+ZeroOfColumns zero_of_columns(TomlTable table, double mm);
+
 }  // namespace condyle::io

@@ -2,6 +2,7 @@
 
 #include "condyle/io/pose_text.hpp"
 #include "io/joint/ligament_tables.hpp"
+#include "io/motion/column_zero.hpp"
 
 namespace condyle::io {
 namespace {
@@ -39,7 +40,8 @@ std::string column_text(const ColumnOfCoordinate& from) {
   return text + (from.is_locked ? ", locked = true }" : " }");
 }
 
-void add_recorded_motion(ProposalLines& lines, const RecordedMotionMapping& mapping) {
+void add_recorded_motion(ProposalLines& lines, const RecordedMotionMapping& mapping,
+                         const std::optional<ZeroOfColumns>& zero, const Joint& joint) {
   const auto* columns = std::get_if<std::vector<ColumnOfCoordinate>>(&mapping);
   if (!columns)
     return lines.add(
@@ -49,6 +51,7 @@ void add_recorded_motion(ProposalLines& lines, const RecordedMotionMapping& mapp
   lines.add("\n[recorded_motion]");
   for (const ColumnOfCoordinate& each : *columns)
     lines.add(fmt::format("{} = {}", each.coordinate, column_text(each)));
+  if (zero) lines.add(io::zero_text_in_joint(*zero, *columns, joint));
 }
 
 }  // namespace
@@ -67,7 +70,7 @@ void add_settings(ProposalLines& lines, const JointFile& file, const Joint& join
     lines.add(text);
   add_motions(lines, file.motions, file.joint.anatomy);
   add_uncertainty(lines, sigma, file.band_seed);
-  if (file.recorded_motion) add_recorded_motion(lines, *file.recorded_motion);
+  if (file.recorded_motion) add_recorded_motion(lines, *file.recorded_motion, file.recorded_zero, joint);
 }
 
 }  // namespace condyle::io

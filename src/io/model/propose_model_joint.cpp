@@ -26,6 +26,7 @@
 #include "io/model/model_ligament_lines.hpp"
 #include "io/model/spatial_transform.hpp"
 #include "io/model/welded_bodies.hpp"
+#include "io/motion/column_zero.hpp"
 
 namespace condyle::io {
 namespace {
@@ -381,6 +382,10 @@ class ModelJointFile {
       if (column.is_locked) line += ", locked = true";
       add(line + " }");
     }
+    text_ += zero_text({.system = {anatomy_.value_or(Anatomy::hip), side_},
+                        .X_PZ = mapping_.X_WF,
+                        .X_PC = pose_of(joint_, std::vector<double>(joint_.coordinates.size()))},
+                       1);
   }
 
   // The contact that the model has between the two bodies.

@@ -30,6 +30,9 @@ const XmlElement& path_of(const XmlElement& element, const ModelElement& values)
   for (const XmlElement& child : element.children)
     for (const XmlElement& inner : child.children)
       if (inner.name == "GeometryPath") return inner;
+  for (const XmlElement& child : element.children)
+    if (child.name.ends_with("Path"))
+      values.fail(fmt::format("its path is a {}, which is not read", child.name));
   values.fail("its GeometryPath is missing");
 }
 

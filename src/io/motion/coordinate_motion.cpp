@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "condyle/error.hpp"
-#include "condyle/io/pose_text.hpp"
 #include "io/joint/coordinate_name.hpp"
 #include "io/motion/column_names.hpp"
+#include "io/motion/column_zero.hpp"
 
 namespace condyle::io {
 
@@ -51,7 +51,7 @@ void note_times(JointMotion& motion) {
 }
 
 JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
-                                  const std::vector<ColumnOfCoordinate>& mapping) {
+                                  const std::vector<ColumnOfCoordinate>& mapping, const ZeroOfColumns* zero) {
   NamedCoordinates recorded = recorded_coordinates(table, mapping);
   JointMotion motion{
       .times = std::move(recorded.times), .X_FM = {}, .processing = std::move(recorded.processing)};
@@ -78,17 +78,9 @@ JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
       motion.X_FM.emplace_back();
       continue;
     }
-    JointCoordinates at;
-    for (std::size_t i = 0; i < recorded.names.size(); ++i) {
-      const double value = (*frame)[i];
-      const std::string& name = recorded.names[i];
-      if (name == "x" || name == "y" || name == "z") {
-        at.translation_mm[name[0] - 'x'] = value;
-        continue;
-      }
-      at.angles = motion::turned_by(at.angles, joint_angle_named(name, joint.anatomy), Angle::degrees(value));
-    }
-    motion.X_FM.emplace_back(pose_at(joint.coordinates(), at, joint.translation_frame));
+    motion.X_FM.emplace_back(pose_at(zero ? zero->system : joint.coordinates(),
+                                     coordinates_by(mapping, *frame, joint.anatomy),
+                                     zero ? zero->translation_frame : joint.translation_frame));
   }
   return motion;
 }

@@ -15,8 +15,10 @@ bool is_of_curves(const MotionTable& table, const Joint& joint);
 /// Notes times in seconds that look like milliseconds.
 void note_times(JointMotion& motion);
 
-/// The motion of a joint whose coordinates these columns record; those without a column are held at 0, which is noted.
+/// The motion of a joint whose coordinates these columns record; those without a column are held at 0, which is noted. With
+/// a zero the poses are pose_at() in its system.
 JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
-                                  const std::vector<ColumnOfCoordinate>& mapping);
+                                  const std::vector<ColumnOfCoordinate>& mapping,
+                                  const ZeroOfColumns* zero = nullptr);
 
 }  // namespace condyle::io

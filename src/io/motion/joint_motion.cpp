@@ -8,38 +8,28 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/provenance.hpp"
 #include "io/motion/column_names.hpp"
+#include "io/motion/column_zero.hpp"
 #include "io/motion/coordinate_motion.hpp"
 #include "io/motion/model_poses.hpp"
 
 namespace condyle::io {
 namespace {
 
-/// Where a mesh file's frame lies in the body's joint frame, its lengths in mm.
-Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
-  Pose X = Pose::Identity();
-  X.linear() = origin.joint_from_source.linear() / mm_per(unit);
-  X.translation() = origin.joint_from_source.translation();
-  return X;
-}
-
-/// The motion from poses of the mobile body's own frame in the fixed body's.
-JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, RecordedPoses recorded) {
+/// The motion from poses X_FM = X_left X X_right.
+JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, RecordedPoses recorded,
+                     const Pose& X_left, const Pose& X_right) {
   JointMotion motion{.times = std::move(recorded.times),
                      .X_FM = {},
                      .processing = std::move(recorded.processing),
                      .notes = std::move(recorded.notes)};
-  const Provenance from = provenance_of(loaded, {});
-  const LengthUnit unit = loaded.report.file.joint.units;
   double farthest = 0;
-  const Pose X_FA = joint_from_file(from.fixed, unit), X_BM = inverted(joint_from_file(from.mobile, unit));
   for (std::size_t i = 0; i < recorded.X_FM.size(); ++i) {
     if (!recorded.X_FM[i]) {
       motion.X_FM.emplace_back();
       continue;
     }
-    const Pose X_FM = X_FA * *recorded.X_FM[i] * X_BM;
+    const Pose X_FM = X_left * *recorded.X_FM[i] * X_right;
     constexpr double rounding = 1e-6;
     if (loaded.joint.kind != JointKind::free && X_FM.translation().norm() > rounding)
       throw FileError(fmt::format(
@@ -52,6 +42,29 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, Record
   if (auto check = motion::check_recorded("the translation", motion::RecordedKind::length_mm, farthest))
     motion.notes.push_back(std::move(*check));
   note_times(motion);
+  return motion;
+}
+
+/// The motion from poses of the mobile body's own frame in the fixed body's.
+JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, RecordedPoses recorded) {
+  const BodyFrames frames = body_frames(loaded);
+  return of_poses(loaded, table, std::move(recorded), frames.X_FA, inverted(frames.X_MB));
+}
+
+/// The motion from columns, whose zero and axes may be others than the joint's.
+JointMotion of_columns(const LoadedJoint& loaded, const MotionTable& table,
+                       const std::vector<ColumnOfCoordinate>& columns) {
+  const auto& zero = loaded.report.file.recorded_zero;
+  if (!zero || !is_moved(*zero, loaded.joint)) return motion_of_coordinates(loaded.joint, table, columns);
+  JointMotion by = motion_of_coordinates(loaded.joint, table, columns, &*zero);
+  by.processing.push_back(
+      fmt::format("{}: its columns have the zero, axes and side of [recorded_motion.zero], which are not "
+                  "those of the joint: bodies are posed by them",
+                  table.path.string()));
+  JointMotion motion =
+      of_poses(loaded, table, {std::move(by.times), std::move(by.X_FM), std::move(by.processing)}, zero->X_FZ,
+               zero->X_YM);
+  motion::add_new(motion.notes, std::move(by.notes));
   return motion;
 }
 
@@ -75,7 +88,7 @@ JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
       return of_poses(joint, table, recorded_poses(table, *poses));
     if (const auto* poses = std::get_if<PosesOfModel>(&*mapping))
       return of_poses(joint, table, io::model_poses(table, *poses));
-    return io::motion_of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
+    return of_columns(joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
   };
   JointMotion motion = read();
   if (is_again)

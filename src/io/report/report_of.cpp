@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "io/motion/column_zero.hpp"
 #include "io/report/report.hpp"
 
 namespace condyle::io {
@@ -10,7 +11,12 @@ Report report_of(const LoadedJoint& loaded, const RomResult* rom, std::string wh
                 .reference_pose = loaded.report.placement.reference_pose,
                 .rom = rom,
                 .rom_error = std::move(why_none)};
-  if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
+  const JointFile& file = loaded.report.file;
+  if (file.recorded_motion) report.recorded_motion = &*file.recorded_motion;
+  // A page poses columns by the joint's own zero.
+  static const RecordedMotionMapping not_by_a_page = PosesOfModel{};
+  if (file.recorded_zero && is_moved(*file.recorded_zero, loaded.joint))
+    report.recorded_motion = &not_by_a_page;
   return report;
 }
 

@@ -15,6 +15,7 @@
 #include "io/joint/part_tables.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/joint/settings_lines.hpp"
+#include "io/motion/column_zero.hpp"
 #include "io/result/implant_result.hpp"
 #include "io/result/provenance_forms.hpp"
 
@@ -75,6 +76,14 @@ motion::Uncertainty uncertainty_of(const JointFile* file) {
   return sigma;
 }
 
+/// Whether the joint file has columns of coordinates that count from the joint's own zero, and so from that about the implant's centre.
+bool columns_about_implant(const ImplantResult& result) {
+  const JointFile* file = result.file;
+  return file && file->recorded_motion &&
+         std::holds_alternative<std::vector<ColumnOfCoordinate>>(*file->recorded_motion) &&
+         !(file->recorded_zero && is_moved(*file->recorded_zero, result.joint));
+}
+
 }  // namespace
 
 std::string implant_joint_file(const ImplantResult& result) {
@@ -93,7 +102,10 @@ std::string implant_joint_file(const ImplantResult& result) {
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
   if (joint.zero_from != ZeroFrom::as_given) lines.add("[reference_pose]  # as the bones were given\n");
   lines.add(io::implant_text(implant) + io::parts_text(io::implant_parts(implant, BonesAround::some)));
-  io::add_settings(lines, result.file ? *result.file : JointFile{}, joint, uncertainty_of(result.file));
+  JointFile file = result.file ? *result.file : JointFile{};
+  if (file.recorded_motion && !columns_about_implant(result)) file.recorded_motion = ColumnsOfPoses{};
+  file.recorded_zero.reset();
+  io::add_settings(lines, file, joint, uncertainty_of(result.file));
   return std::move(lines).proposal(joint.side).toml;
 }
 
@@ -111,8 +123,7 @@ LoadedJoint joint_with_implant(const ImplantResult& result) {
     file.joint.parts.push_back({std::move(part)});
   if (result.file) {
     file.motions = result.file->motions, file.band_seed = result.file->band_seed;
-    if (const auto& mapping = result.file->recorded_motion)
-      if (std::holds_alternative<std::vector<ColumnOfCoordinate>>(*mapping)) file.recorded_motion = mapping;
+    if (columns_about_implant(result)) file.recorded_motion = result.file->recorded_motion;
   }
   file.uncertainty = uncertainty_of(result.file);
   auto [joint, placement] = make_joint(file.joint, answer.joint.fixed, answer.joint.mobile);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -18,7 +18,7 @@
 #include "io/file/output_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/file/xml_escaped.hpp"
-#include "io/model/joint_mapping.hpp"
+#include "io/motion/column_zero.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/text_table.hpp"
 
@@ -54,7 +54,10 @@ std::string numbers_text(const std::vector<double>& values) {
 std::string words_of(const BoxEndRecord& end) {
   if (end.source == LimitSource::living) return fmt::format("living, bone {:.2f}", end.bony_deg);
   if (end.source == LimitSource::ligament) return "ligament";
-  return end.reason == motion::LimitReason::contact ? "bony" : "no contact";
+  if (end.reason != motion::LimitReason::contact) return "no contact";
+  return end.source == LimitSource::bearing ? "bearing surface"
+         : end.source == LimitSource::cut   ? "cut of the image"
+                                            : "bony";
 }
 
 std::string error_text(const LimitBoxRecord& box) {
@@ -103,19 +106,37 @@ std::string opensim_fragment(const std::vector<CoordinateRange>& ranges, StopFor
       comment, forces, coordinates);
 }
 
-/// Joints in the order of the joint's rotations, to be included in the element of the mobile body.
-std::string mujoco_fragment(const LimitBoxRecord& box, const Joint& joint, const std::string& comment) {
-  std::string text = comment;
+/// Joints in the order of the joint's rotations, about axes of the mobile body's own frame, for the element of that body.
+std::string mujoco_fragment(const LimitFile& file, const LimitBoxRecord& box, const LoadedJoint& joint,
+                            const std::string& comment) {
+  const bool in_degrees = file.angles == AngleUnit::degrees;
+  const auto angle = [&](double degrees) { return in_degrees ? degrees : degrees * std::numbers::pi / 180; };
+  const auto words = [](const Vec3& v) {
+    return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
+  };
+  const BodyFrames frames = body_frames(joint);
+  Pose at_zero = Pose::Identity();
+  at_zero.translation() = box.held_translation_mm.value_or(Vec3::Zero());
+  const Pose X_BM = inverted(frames.X_MB), X_AB = inverted(frames.X_FA) * at_zero * frames.X_MB;
+  const Eigen::Quaterniond turned(X_AB.linear());
+  std::string text = fmt::format(
+      "<!-- angles are {0}s, of <compiler angle=\"{0}\"/>{1}; lengths metres; axis and pos in the frame of "
+      "the "
+      "mobile body's mesh -->\n<mujocoinclude>\n{2}<!-- where all angles are 0 the mobile body lies in the "
+      "fixed "
+      "one's frame at pos=\"{3}\" quat=\"{4} {5}\" -->\n",
+      in_degrees ? "degree" : "radian", in_degrees ? ", MuJoCo's default" : "", comment,
+      words(X_AB.translation() / 1000), turned.w(), words(turned.vec()));
   for (const BoxSideRecord& side : box.coordinates) {
-    const Vec3 axis = (side.sign * axis_of(side.angle, joint.coordinates(), {})).array() + 0.0;  // no -0
     const std::string ref =
-        side.offset_deg == 0 ? "" : fmt::format(" ref=\"{}\"", -side.sign * side.offset_deg);
+        side.offset_deg == 0 ? "" : fmt::format(" ref=\"{}\"", angle(-side.sign * side.offset_deg));
     text += fmt::format(
-        "<joint name=\"{}\" type=\"hinge\" axis=\"{} {} {}\"{} limited=\"true\" range=\"{} {}\"/>\n",
-        xml_escaped(side.coordinate), axis.x(), axis.y(), axis.z(), ref, side.lower.limit_deg,
-        side.upper.limit_deg);
+        "<joint name=\"{}\" type=\"hinge\" axis=\"{}\" pos=\"{}\"{} limited=\"true\" range=\"{} {}\"/>\n",
+        xml_escaped(side.coordinate),
+        words(X_BM.linear() * (side.sign * axis_of(side.angle, joint.joint.coordinates(), {}))),
+        words(X_BM.translation() / 1000), ref, angle(side.lower.limit_deg), angle(side.upper.limit_deg));
   }
-  return "<mujocoinclude>\n" + text + "</mujocoinclude>\n";
+  return text + "</mujocoinclude>\n";
 }
 
 /// The copy of the model. Throws as with_limits().
@@ -125,37 +146,67 @@ std::string model_text(const LimitFile& file, const LoadedJoint& joint,
                      names_in(columns_of(joint)->front().column).first, ranges, file.stop, comment);
 }
 
-/// A copy of a model whose coordinates have another sense or zero would have ends that mean another pose.
-void require_same_meaning(const std::filesystem::path& path, const LoadedJoint& joint) {
+/// Poses by the model against poses by the joint file: of each coordinate by itself, and of all at once.
+void require_same_meaning(const std::filesystem::path& path, const LoadedJoint& joint,
+                          const ZeroOfColumns& zero) {
   const std::vector<ColumnOfCoordinate>& columns = *columns_of(joint);
   const auto [name, first] = names_in(columns.front().column);
   const Model model = read_model(path);
-  const auto is_of = [&, name = name, first = first](const ModelJoint& each) {
-    return name.empty() ? std::any_of(each.coordinates.begin(), each.coordinates.end(),
-                                      [&](const ModelCoordinate& its) { return its.name == first; })
-                        : each.name == name;
+  const auto has = [](const ModelJoint& each, const std::string& coordinate) {
+    return std::any_of(each.coordinates.begin(), each.coordinates.end(),
+                       [&](const ModelCoordinate& its) { return its.name == coordinate; });
   };
-  const auto of_model = std::find_if(model.joints.begin(), model.joints.end(), is_of);
-  if (of_model == model.joints.end()) return;  // with_limits() says so
-  const std::vector<ColumnOfCoordinate> its =
-      mapping_of(StandingModel(model), *of_model,
-                 joint.joint.names_its_joint() ? std::optional(joint.joint.anatomy) : std::nullopt,
-                 joint.joint.side)
-          .columns;
-  constexpr double rounding_deg = 1e-9;
-  for (const ColumnOfCoordinate& ours : columns) {
-    if (ours.kind != CoordinateKind::angle) continue;
-    const std::string coordinate = names_in(ours.column).second;
-    const auto theirs = std::find_if(its.begin(), its.end(), [&](const ColumnOfCoordinate& each) {
-      return names_in(each.column).second == coordinate;
-    });
-    if (theirs == its.end() || theirs->coordinate != ours.coordinate || theirs->sign != ours.sign ||
-        !(std::abs(theirs->offset - ours.offset) < rounding_deg))
-      throw FileError(
-          fmt::format("{}: coordinate {} turns the joint otherwise than the joint file says: make it "
-                      "anew from this model",
-                      path.string(), in_quotes(coordinate)));
+  const auto its = std::find_if(model.joints.begin(), model.joints.end(),
+                                [&, name = name, first = first](const ModelJoint& each) {
+                                  return name.empty() ? has(each, first) : each.name == name;
+                                });
+  if (its == model.joints.end()) return;  // with_limits() says so
+  for (const ModelCoupler& coupler : model.couplers)
+    if (has(*its, coupler.dependent))
+      throw FileError(fmt::format("{}: constraint {} moves coordinate {}: no limit of it by itself holds",
+                                  path.string(), in_quotes(coupler.name), in_quotes(coupler.dependent)));
+  // Degrees or mm; a joint file's frame may have six decimals.
+  constexpr double values[] = {-110, -50, -20, 20, 50, 110}, rounding = 2e-6, rounding_mm = 1e-3;
+  std::vector<double> at(columns.size());
+  const auto check = [&](const std::string& what) {
+    std::vector<double> q = its->defaults();
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      for (std::size_t k = 0; k < q.size(); ++k)
+        if (its->coordinates[k].name == names_in(columns[i].column).second)
+          q[k] = at[i] * (columns[i].kind == CoordinateKind::angle ? std::numbers::pi / 180 : 1e-3);
+    Pose X = pose_of(*its, q);
+    X.translation() *= mm_per(LengthUnit::metres);
+    const Pose file = pose_by(zero, columns, at, joint.joint.anatomy);
+    if (!((X.linear() - file.linear()).cwiseAbs().maxCoeff() < rounding &&
+          (X.translation() - file.translation()).norm() < rounding_mm))
+      throw FileError(fmt::format(
+          "{}: {} otherwise than the joint file says: make it anew from this model by condyle init",
+          path.string(), what));
+  };
+  check("joint " + in_quotes(its->name) + " stands at zero");
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (const double value : values) {
+      at[i] = value;
+      check("coordinate " + in_quotes(names_in(columns[i].column).second) + " turns the joint");
+    }
+    at[i] = 0;
   }
+  for (std::size_t i = 0; i < at.size(); ++i) at[i] = values[i];
+  check("joint " + in_quotes(its->name) + " turns");
+}
+
+/// A free joint's limits are those at one translation, which its model or its recorded motion moves.
+void require_held(const LoadedJoint& joint, bool holds_translation) {
+  if (joint.joint.kind != JointKind::free || holds_translation || !joint.report.file.recorded_motion) return;
+  const auto* columns = columns_of(joint);
+  if (!columns || std::any_of(columns->begin(), columns->end(), [](const ColumnOfCoordinate& column) {
+        return column.kind == CoordinateKind::length;
+      }))
+    throw UsageError(
+        "the translation of this joint moves by [recorded_motion], and limits of its angles hold at one "
+        "only: say "
+        "which by --translation \"x=X y=Y z=Z\", or ask by --follow, without writing, where a motion that "
+        "moves it ends");
 }
 
 const BoxSideRecord& side_of(const LimitBoxRecord& box, JointAngle angle) {
@@ -195,8 +246,8 @@ std::string coupled_limits(const LimitBoxRecord& box) {
 
 }  // namespace
 
-std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const LimitFile& file,
-                                                 const Provenance* from) {
+LimitCoordinates limit_coordinates(const LoadedJoint& joint, const LimitFile& file, const Provenance* from,
+                                   bool holds_translation) {
   const std::string ending = ending_of(file);
   if (ending != ".osim" && ending != ".xml" && ending != ".csv")
     throw UsageError(file.path.string() +
@@ -208,39 +259,73 @@ std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const
                      ": is no model of OpenSim: --model takes the .osim that the joint is of");
   if (file.stop == StopForce::linear && ending != ".osim")
     throw UsageError(file.path.string() + ": a linear stop is of an .osim");
+  if (file.angles == AngleUnit::radians && ending != ".xml")
+    throw UsageError(file.path.string() + ": the unit of angles is chosen of an .xml of MuJoCo");
   if (file.source == LimitSource::living && ending == ".csv")
     throw UsageError(file.path.string() +
                      ": coupled limits are those of bone: write the living ones as .osim or .xml");
   if (ending == ".csv" && joint.joint.kind == JointKind::hinge)
     throw UsageError("the limits of a hinge are not coupled: write .osim or .xml");
+  const auto& mapping = joint.report.file.recorded_motion;
+  const auto* columns = columns_of(joint);
+  if (mapping &&
+      (std::holds_alternative<PosesOfModel>(*mapping) ? ending != ".csv" : !columns && ending == ".osim"))
+    throw UsageError(
+        "the model poses this joint by its functions: its coordinates have no limits each by itself");
+  if (ending == ".osim" && !columns)
+    throw UsageError("no model was read into this joint: make it by condyle init MODEL.osim --joint NAME");
+  require_held(joint, holds_translation);
   std::vector<std::filesystem::path> read;
   for (const std::filesystem::path& each : files_read(from)) read.push_back(each);
   if (file.model) read.push_back(*file.model);
   check_output_file(file.path, read);
-  std::vector<TurningCoordinate> coordinates;
-  if (const auto* columns = columns_of(joint)) {
-    for (const ColumnOfCoordinate& column : *columns)
-      if (column.kind == CoordinateKind::angle)
-        coordinates.push_back({names_in(column.column).second,
-                               joint_angle_named(column.coordinate, joint.joint.anatomy), column.sign,
-                               column.offset});
-    std::vector<CoordinateRange> ranges;
-    for (const TurningCoordinate& each : coordinates) ranges.push_back({each.name, 0, 0});
-    if (file.model) {
-      (void)model_text(file, joint, ranges, "");
-      require_same_meaning(*file.model, joint);
-    }
-    return coordinates;
+  LimitCoordinates known_by;
+  if (!columns) {
+    const Joint& own = joint.joint;
+    const auto kind = own.names_its_joint() ? name_of(own.anatomy) : name_of(own.kind);
+    for (const JointAngle angle : all_joint_angles)
+      if (own.kind != JointKind::hinge || angle == JointAngle::flexion)
+        known_by.coordinates.push_back({ending == ".xml" ? fmt::format("{}_{:.1}_{}", kind, name_of(own.side),
+                                                                       name_of(angle, own.anatomy))
+                                                         : std::string(name_of(angle, own.anatomy)),
+                                        angle});
+    return known_by;
   }
-  if (ending == ".osim" && joint.report.file.recorded_motion)
-    throw UsageError(
-        "the model poses this joint by its functions: its coordinates have no limits each by itself");
-  if (ending == ".osim")
-    throw UsageError("no model was read into this joint: make it by condyle init MODEL.osim --joint NAME");
-  for (const JointAngle angle : all_joint_angles)
-    if (joint.joint.kind != JointKind::hinge || angle == JointAngle::flexion)
-      coordinates.push_back({std::string(name_of(angle, joint.joint.anatomy)), angle});
-  return coordinates;
+  const ZeroOfColumns zero = zero_of(joint, *columns);
+  std::vector<CoordinateRange> ranges;
+  for (const ColumnOfCoordinate& column : *columns) {
+    if (column.kind != CoordinateKind::angle) continue;
+    ranges.push_back({names_in(column.column).second, 0, 0});
+    known_by.coordinates.push_back({ranges.back().coordinate,
+                                    joint_angle_named(column.coordinate, joint.joint.anatomy), column.sign,
+                                    column.offset});
+  }
+  if (file.model) {
+    (void)model_text(file, joint, ranges, "");
+    require_same_meaning(*file.model, joint, zero);
+  }
+  if (is_moved(zero, joint.joint)) {
+    if (holds_translation)
+      throw UsageError(
+          "--translation is along the joint's own axes, and [recorded_motion.zero] has others: no limits are "
+          "written in its angles");
+    known_by.in_zero = joint_in(zero, joint, *columns);
+  }
+  return known_by;
+}
+
+std::optional<LimitBoxRecord> limit_box(const LimitCoordinates& known_by, const Case& joint,
+                                        const RangeAnswer& answer, const RangeRequest& request,
+                                        LimitSource source, const Control& control) {
+  if (!known_by.in_zero || !answer.range)
+    return limit_box_record(joint, answer, request, known_by.coordinates, source, control);
+  const Case in_zero = *known_by.in_zero;
+  const RangeRequest about{.range = request.range, .map = request.map};
+  const auto found = answer_range(in_zero, about, control);
+  if (!found) return std::nullopt;
+  auto box = limit_box_record(in_zero, *found, about, known_by.coordinates, source, control);
+  if (box) box->zero = BoxZero::columns;
+  return box;
 }
 
 std::string limit_box_text(const LimitBoxRecord& box) {
@@ -258,11 +343,16 @@ std::string limit_box_text(const LimitBoxRecord& box) {
   if (const auto& held = box.held_translation_mm)
     text +=
         fmt::format("  with the translation held at {:g}, {:g}, {:g} mm\n", held->x(), held->y(), held->z());
+  if (box.zero == BoxZero::columns)
+    text += wrapped(
+        "  angles count from [recorded_motion.zero], whose zero, axes or side are not those of this joint "
+        "and its "
+        "other limits\n");
   return text;
 }
 
 void write_limits(const LimitFile& file, const LimitBoxRecord& box, const LoadedJoint& joint,
-                  const Provenance* from) {
+                  const LimitCoordinates& known_by, const Provenance* from) {
   const std::string ending = ending_of(file), text = limit_box_text(box), sources = provenance_comments(from);
   if (ending == ".csv") {
     std::string comments;
@@ -271,13 +361,9 @@ void write_limits(const LimitFile& file, const LimitBoxRecord& box, const Loaded
     return write_output_file(file.path, sources + comments + coupled_limits(box));
   }
   if (ending == ".xml")
-    return write_output_file(
-        file.path,
-        mujoco_fragment(box, joint.joint,
-                        xml_comment(text +
-                                    "range and ref are degrees, as of <compiler angle=\"degree\">; axes "
-                                    "are those of the joint frame at zero angles\n" +
-                                    sources)));
+    return write_output_file(file.path,
+                             mujoco_fragment(file, box, known_by.in_zero ? *known_by.in_zero : joint,
+                                             xml_comment(text + sources)));
   const std::string comment = xml_comment(
       text + "CoordinateLimitForce has degrees, range and CoordinateLinearStopForce radians\n" + sources);
   const std::vector<CoordinateRange> ranges = ranges_of(box);
