@@ -138,14 +138,15 @@ std::vector<Propose> joints_of_meshes(const HipArguments& options) {
   std::vector<Propose> joints;
   for (const std::string& femur : options.femora)
     joints.emplace_back([&options, femur] {
-      return Proposed{io::propose_joint(io::ProposalRequest{
-                          .fixed = options.pelvis,
-                          .mobile = femur,
-                          .joint_file = options.joint_file(Side::left),
-                          .side = options.side,
-                          .units = options.units,
-                          .anatomy = Anatomy::hip,
-                          .polygons = options.polygons.value_or(io::PolygonRule::refuse)}),
+      return Proposed{io::propose_joint(
+                          io::ProposalRequest{.fixed = options.pelvis,
+                                              .mobile = femur,
+                                              .joint_file = options.joint_file(Side::left),
+                                              .side = options.side,
+                                              .units = options.units,
+                                              .anatomy = Anatomy::hip,
+                                              .polygons = options.polygons.value_or(io::PolygonRule::refuse),
+                                              .person = options.person}),
                       std::nullopt, femur};
     });
   return joints;
@@ -158,21 +159,22 @@ Side write_joint(const HipArguments& options, Proposed& proposed) {
                                 fmt::join(proposed.joint.to_fill_in, "; ")));
   const Side side = *proposed.joint.side;
   const fs::path file = options.joint_file(side);
-  const std::string person = io::person_text(options.person);
   if (fs::exists(file))
     throw UsageError(
         fmt::format("{}: is of the {} side, as another femur is: answer each by itself, with --side",
                     proposed.femur, name_of(side)));
   if (proposed.of_labels) {
     io::LabelJoint& joint = *proposed.of_labels;
-    joint.proposal.toml += person;
+    joint.proposal.toml += io::person_text(options.person);
     for (fs::path* mesh : {&joint.fixed_mesh, &joint.mobile_mesh})
       *mesh = file.parent_path() / mesh->filename();
     write_proposal(joint, file);
   } else {
     io::OutputFolder folder(file.parent_path());
-    io::write_output_file(folder.file("hip.toml"), proposed.joint.toml + person);
+    io::write_output_file(folder.file("hip.toml"), proposed.joint.toml);
     say_written(folder.commit());
+    if (!proposed.joint.units_note.empty())
+      note(fmt::format("{}: {}", name_of(side), proposed.joint.units_note));
   }
   return side;
 }
@@ -212,10 +214,6 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
   io::Provenance from = io::provenance_of(loaded, words_of(command));
   AnsweredHip hip{std::move(loaded), {}, std::move(from)};
   hip.notes = noted(hip.loaded, Strictness::notes, whose);
-  if (const LengthUnit units = hip.loaded.report.file.joint.units;
-      !options.units && units != LengthUnit::millimetres)
-    note(fmt::format("{}meshes are taken to be in {}, by sizes of human bones: --units mm says otherwise",
-                     whose, plural_of(units)));
   io::ReportRequest request{.range = range_request_of(options.range, hip.loaded, Case(hip.loaded).motions()),
                             .with_measures = true};
   std::optional<ResectionRequest> plan;
@@ -448,7 +446,8 @@ void add_hip(CLI::App& app) {
   group_help(
       *command,
       {{"Most used", {"--out", "--plan", "--side", "--task"}},
-       {"Question", {"--age", "--sex", "--units", "--polygons", "--samples", "--accept-reference-contact"}},
+       {"Question",
+        {"--age", "--sex", "--species", "--units", "--polygons", "--samples", "--accept-reference-contact"}},
        {"Label maps", of_labels},
        {"Images", label_file_names()},
        {"Output", {"--case", "--note", "--date", "--crate", "--verbose", "--help"}}});

@@ -16,6 +16,8 @@
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
 #include "io/image/unread_image.hpp"
+#include "io/joint/settings_lines.hpp"
+#include "joint_command.hpp"
 #include "label_options.hpp"
 #include "model_options.hpp"
 #include "notes.hpp"
@@ -35,6 +37,7 @@ struct InitArguments {
   std::optional<Side> side;
   std::optional<LengthUnit> units;
   LabelOptions labels;
+  Person person;
   std::string out;
 
   fs::path joint_file() const { return out.empty() ? fs::path("joint.toml") : fs::path(out); }
@@ -64,7 +67,8 @@ void propose_from_meshes(const InitArguments& options) {
                           .side = options.side,
                           .units = options.units,
                           .anatomy = anatomy_of(options.joint),
-                          .polygons = options.model.polygons.value_or(io::PolygonRule::refuse)});
+                          .polygons = options.model.polygons.value_or(io::PolygonRule::refuse),
+                          .person = options.person});
   note_to_fill_in(proposal);
   if (options.out.empty()) return print(proposal.toml);
   io::write_output_file(options.out, proposal.toml);
@@ -96,8 +100,9 @@ void propose_from_labels(const InitArguments& options) {
                                 .joint_file = options.joint_file(),
                                 .side = options.side};
   if (!options.mobile.empty()) request.mobile_labels = options.mobile;
-  const io::LabelJoint joint =
+  io::LabelJoint joint =
       with_progress([&](const Control& control) { return io::propose_joint(request, control); });
+  joint.proposal.toml += io::person_text(options.person);
   write_proposal(joint, request.joint_file);
 }
 
@@ -115,7 +120,8 @@ void propose_from_model(const InitArguments& options) {
   const io::Model model = model_of(options.fixed, options.model.geometry);
   io::ModelJointRequest request = request_of(model, options.model, options.joint, options.side);
   request.joint_file = options.joint_file();
-  const io::ModelJointProposal proposed = io::propose_joint(model, request);
+  io::ModelJointProposal proposed = io::propose_joint(model, request);
+  proposed.proposal.toml += io::person_text(options.person);
   for (const io::ModelNote& of_model : proposed.notes) note(io::to_text(of_model));
   note_to_fill_in(proposed.proposal);
   // What cannot be loaded as it stands is printed and no file, which would be in the way of the next proposal.
@@ -190,6 +196,7 @@ void add_init(CLI::App& app) {
               {"in", LengthUnit::inches},
               {"m", LengthUnit::metres}},
              "The unit of both meshes. Default: inferred from their size");
+  add_species(*command, options->person.species);
   command
       ->add_option("-o,--out", options->out,
                    "Write the joint file here, and surfaces of a label map beside it")
@@ -198,7 +205,7 @@ void add_init(CLI::App& app) {
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
   std::vector<std::string> of_models;
   for (const std::string& name : model_names()) of_models.push_back(name);
-  group_help(*command, {{"Joint", {"--joint", "--side", "--units"}},
+  group_help(*command, {{"Joint", {"--joint", "--side", "--units", "--species"}},
                         {"Output", {"--out", "--help"}},
                         {"Label maps", of_labels},
                         {"Models", of_models},

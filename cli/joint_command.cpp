@@ -33,6 +33,15 @@ void add_person(CLI::App& command, Person& person) {
       ->option_text("YEARS");
   add_choice(command, "--sex", person.sex, {{"female", Sex::female}, {"male", Sex::male}},
              "The same of this sex");
+  add_species(command, person.species);
+}
+
+void add_species(CLI::App& command, std::string& species) {
+  command
+      .add_option("--species", species,
+                  "Whose bones they are, if not a human's: then nothing is held against sizes and ranges of "
+                  "people, and no unit is inferred from sizes")
+      ->option_text("NAME");
 }
 
 void add_where(CLI::App& command, JointArguments& given) {
@@ -50,6 +59,7 @@ io::LoadedJoint joint_at(io::LoadedJoint loaded, const std::vector<std::string>&
                          const Person& person) {
   if (person.age_years) loaded.joint.person.age_years = person.age_years;
   if (person.sex) loaded.joint.person.sex = person.sex;
+  if (!person.species.empty()) loaded.joint.person.species = person.species;
   if (parameters.empty()) return loaded;
   std::string text;
   for (const std::string& words : parameters) text += words + " ";

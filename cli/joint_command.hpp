@@ -39,6 +39,7 @@ struct JointArguments {
 void add_set(CLI::App& command, std::vector<std::string>& parameters);
 void add_joint(CLI::App& command, JointArguments& given, const char* help = "The joint file, .toml");
 void add_person(CLI::App& command, Person& person);
+void add_species(CLI::App& command, std::string& species);
 void add_where(CLI::App& command, JointArguments& given);
 
 /// The joint at the values of --set, and of this person as far as it is said. Throws UsageError that begins with the option.

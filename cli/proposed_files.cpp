@@ -22,6 +22,7 @@ void refuse_existing(const fs::path& path, const char* why) {
 
 void note_to_fill_in(const io::JointProposal& proposal) {
   for (const std::string& missing : proposal.to_fill_in) note("to fill in: " + missing);
+  if (!proposal.units_note.empty()) note(proposal.units_note);
 }
 
 void write_proposal(const io::LabelJoint& joint, const fs::path& joint_file) {

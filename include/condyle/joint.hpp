@@ -243,6 +243,11 @@ inline constexpr Sex all_sexes[] = {Sex::female, Sex::male};
 struct Person {
   std::optional<double> age_years = {};  ///< is_age()
   std::optional<Sex> sex = {};
+  /// "cat", "Australopithecus afarensis". Of another than human nothing is held against human sizes and ranges.
+  std::string species = {};
+
+  /// Whether it is "human", "Homo sapiens" or not given; capitals do not count.
+  [[nodiscard]] bool is_human() const;
 };
 
 // Ligaments as strings: docs/ligaments.md, docs/mathematics/14-ligaments.md.
@@ -372,6 +377,7 @@ struct Joint {
   std::string planned = {};
   Person person = {};
   std::vector<Ligament> ligaments = {};
+  LengthUnit units = LengthUnit::millimetres;  ///< in which the meshes were given; here they are mm
 
   [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.

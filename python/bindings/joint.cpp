@@ -131,20 +131,23 @@ std::unique_ptr<JointHandle> moved_to(const JointHandle& handle,
   return std::make_unique<JointHandle>(with_parameters(handle.loaded, values));
 }
 
-/// The text of the file, the keys that it leaves to fill in, and the evidence for side and axes.
+/// The text of the file, the keys that it leaves to fill in, and the evidence for a unit that is not mm, for side and axes.
 py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
                    const std::filesystem::path& joint_file, const std::optional<std::string>& joint,
                    const std::optional<std::string>& side, const std::optional<std::string>& units,
-                   const std::string& polygons) {
+                   const std::string& polygons, const std::string& species) {
   io::ProposalRequest request{.fixed = fixed,
                               .mobile = mobile,
                               .joint_file = joint_file,
-                              .polygons = io::polygon_rule_named(polygons)};
+                              .polygons = io::polygon_rule_named(polygons),
+                              .person = {.species = species}};
   if (joint) request.anatomy = anatomy_named(*joint);
   if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
   if (units) request.units = length_unit_named(*units);
   const io::JointProposal proposal = without_lock([&] { return io::propose_joint(request); });
-  return py::make_tuple(proposal.toml, proposal.to_fill_in, proposal.evidence);
+  std::vector<std::string> evidence = proposal.evidence;
+  if (!proposal.units_note.empty()) evidence.insert(evidence.begin(), proposal.units_note);
+  return py::make_tuple(proposal.toml, proposal.to_fill_in, evidence);
 }
 
 }  // namespace
@@ -159,9 +162,10 @@ void bind_joint(py::module_& module) {
       .def_property_readonly("person",
                              [](const JointHandle& h) {
                                const Person& person = h.joint().person;
-                               return std::pair(person.age_years, person.sex
-                                                                      ? std::optional(name_of(*person.sex))
-                                                                      : std::nullopt);
+                               return std::tuple(
+                                   person.age_years,
+                                   person.sex ? std::optional(name_of(*person.sex)) : std::nullopt,
+                                   person.species.empty() ? std::nullopt : std::optional(person.species));
                              })
       .def_property_readonly("planned", [](const JointHandle& h) { return io::planned_text(h.joint()); })
       .def_property_readonly("kind", [](const JointHandle& h) { return name_of(h.joint().kind); })

@@ -94,8 +94,10 @@ JointDescription description_in(const py::dict& given) {
       vector_in(at("reference_translation_mm"), "reference_pose")};
   for (const ZeroFrom from : {ZeroFrom::stated, ZeroFrom::anatomy})
     if (word(given, "zero_from") == name_of(from)) joint.zero_from = from;
-  const auto [age, sex] = at("person").cast<std::pair<std::optional<double>, std::optional<std::string>>>();
+  const auto [age, sex, species] =
+      at("person").cast<std::tuple<std::optional<double>, std::optional<std::string>, std::string>>();
   joint.person.age_years = age;
+  joint.person.species = species;
   for (const Sex each : all_sexes)
     if (sex == name_of(each)) joint.person.sex = each;
   joint.ligaments = io::ligaments_of_text(word(given, "ligaments"), joint);

@@ -38,12 +38,13 @@ void members(T& value, const Each& each) {
   if constexpr (is_one_of<Struct, TriMesh, CoordinateSystem, BodyImage, ImageCut, CutPlane, DescribedPart,
                           Sphere, FrameDirections, FemurLandmarks, CentreFit, JointCoordinates, LikelyUnit,
                           BoundingBox, BodyPlacement, contact::NormalDepthOptions, contact::HalfSpace,
-                          io::RegionEntry, io::FileDigest, RepairDone, io::LoadedJoint, Person>) {
+                          io::RegionEntry, io::FileDigest, RepairDone, io::LoadedJoint>) {
     auto& [a, b] = value;
     each(a, b);
   } else if constexpr (is_one_of<Struct, Points, PosedParts, UnposedBody, SphericalPatch, Cylinder,
                                  AxisErrors, AnteriorPelvicPlane, TransepicondylarAxis, FrameDescription,
-                                 JointAngles, io::ColumnsOfPoses, io::PosesOfModel, plan::CupAngles>) {
+                                 JointAngles, io::ColumnsOfPoses, io::PosesOfModel, plan::CupAngles,
+                                 Person>) {
     auto& [a, b, c] = value;
     each(a, b, c);
   } else if constexpr (is_one_of<Struct, SphereFit, PelvisLandmarks, io::PoseDegrees, motion::Uncertainty,
@@ -72,10 +73,17 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l);
+<<<<<<< HEAD
   } else if constexpr (is_one_of<Struct, Joint>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m);
   } else if constexpr (is_one_of<Struct, io::JointFile>) {
+=======
+  } else if constexpr (is_one_of<Struct, io::JointFile>) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
+    each(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (is_one_of<Struct, Joint>) {
+>>>>>>> 89333086 (Take bones of another species than human as they are, and say the unit of meshes that are not in millimetres)
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   } else if constexpr (is_one_of<Struct, JointDescription, plan::ReverseShoulder>) {

@@ -99,8 +99,8 @@ class DescribedJoint(Unchanging):
 
     @property
     def person(self) -> dict[str, Union[float, str]]:
-        """Whose joint it is: `age` in years and `sex`, each if it is known. Limits are held against people like this one."""
-        return {key: value for key, value in zip(("age", "sex"), self._native.person) if value is not None}
+        """Whose joint it is: `age` in years, `sex` and `species`, each if it is known. Limits are held against people like this one."""
+        return {key: value for key, value in zip(("age", "sex", "species"), self._native.person) if value is not None}
 
     @property
     def ligaments(self) -> tuple[Ligament, ...]:

@@ -68,6 +68,7 @@ class Joint(DescribedJoint):
         where neutral is; with `{"from": "anatomy"}` the angles of a hip follow from the condyles of its femur.
     person : mapping, optional
         Whose joint it is, that limits are held against people like this one: `{"age": 34, "sex": "female"}`, or one of the two.
+        Of another `"species"` than human nothing is held against sizes and ranges of people.
     ligaments : list of mappings, optional
         Each with the keys that `[[ligament]]` of a joint file has (docs/ligaments.md), in `units` and the frames of the meshes.
     fixed_in_W, mobile_in_W : (4, 4) numbers, optional

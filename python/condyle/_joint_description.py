@@ -55,15 +55,16 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
     }
 
 
-def _person(person: Any) -> tuple[Optional[float], Optional[str]]:
-    """Age and sex, each None if it is not given."""
+def _person(person: Any) -> tuple[Optional[float], Optional[str], str]:
+    """Age and sex, each None if it is not given, and species."""
     if person is None:
-        return None, None
-    if not isinstance(person, Mapping) or not set(person) <= {"age", "sex"}:
-        raise UsageError('person: "age" and "sex" are its names')
+        return None, None, ""
+    if not isinstance(person, Mapping) or not set(person) <= {"age", "sex", "species"}:
+        raise UsageError('person: "age", "sex" and "species" are its names')
     age, sex = person.get("age"), person.get("sex")
     return (None if age is None else number(age, "person: age", 0, 120),
-            None if sex is None else word(sex, "person: sex", ("female", "male")))
+            None if sex is None else word(sex, "person: sex", ("female", "male")),
+            text_of(person.get("species", ""), "person: species"))
 
 
 def _ligament_tables(ligaments: Any) -> str:

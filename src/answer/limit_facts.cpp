@@ -30,7 +30,7 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
 }
 
 std::optional<Angle> normal_range(const Joint& joint, const motion::MotionLimit& limit) {
-  if (!joint.is_hip() || !zero_pose(joint).is_neutral()) return std::nullopt;
+  if (!joint.is_hip() || !joint.person.is_human() || !zero_pose(joint).is_neutral()) return std::nullopt;
   return normal_hip_range(limit.motion.name);
 }
 
@@ -41,7 +41,8 @@ std::optional<BoneReference> bone_reference(const Joint& joint, const motion::Mo
   const motion::Motion& motion = limit.motion;
   const auto known = std::find_if(references.begin(), references.end(),
                                   [&](const BoneReference& each) { return each.motion == motion.name; });
-  if (known == references.end() || !joint.is_hip() || joint.implant || !zero_pose(joint).is_neutral())
+  if (known == references.end() || !joint.is_hip() || !joint.person.is_human() || joint.implant ||
+      !zero_pose(joint).is_neutral())
     return std::nullopt;
   // A motion of one's own may have a built-in one's name and be another.
   const std::vector<motion::Motion> built_in = motion::hip_motions();

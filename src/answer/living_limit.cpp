@@ -113,7 +113,8 @@ std::string_view name_of(Closeness closeness) noexcept {
 
 std::optional<LivingLimit> living_limit(const Joint& joint, const motion::MotionLimit& limit,
                                         const motion::LimitBand* band) {
-  if (!joint.is_hip() || joint.implant || !zero_pose(joint).is_neutral()) return std::nullopt;
+  if (!joint.is_hip() || !joint.person.is_human() || joint.implant || !zero_pose(joint).is_neutral())
+    return std::nullopt;
   LivingLimit living;
   const auto is_of = [&](const auto& row) { return row.motion.is(limit.motion); };
   if (const auto gap = std::find_if(gaps.begin(), gaps.end(), is_of); gap != gaps.end())

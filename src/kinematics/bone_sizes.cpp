@@ -34,6 +34,8 @@ std::optional<LengthUnit> unit_by_factor(double factor) noexcept {
   return std::nullopt;
 }
 
+constexpr const char* of_an_animal = " (an animal's? species of [person] says so)";
+
 double shortest_of(const Joint& joint) noexcept {
   if (joint.has_head() || !joint.names_its_joint()) return shortest_bone;
   return joint.anatomy == Anatomy::knee ? shortest_at_knee : shortest_at_elbow;
@@ -94,7 +96,9 @@ std::optional<LengthUnit> unit_of_head(double radius) noexcept {
 SizeNotes size_notes(const Joint& joint, const std::optional<SphericalPatch>& head) {
   SizeNotes found;
   const std::optional<double> radius = head ? std::optional(head->fit.sphere.radius) : std::nullopt;
+  const bool is_human = joint.person.is_human();
   for (const Body* body : {&joint.fixed, &joint.mobile}) {
+    if (!is_human) break;
     const double size = mesh::bounds_of_surface(body->mesh).diagonal();
     if (size >= shortest_of(joint) && size <= longest_bone) continue;
     found.are_bones &= size >= shortest_bone && size <= longest_bone;
@@ -103,19 +107,19 @@ SizeNotes size_notes(const Joint& joint, const std::optional<SphericalPatch>& he
          body->name +
              formatted(" is %.4g mm across in the units stated, and no human bone %sis", size,
                        size < shortest_bone || size > longest_bone ? "" : "of such a joint ") +
-             likely_unit_text(size, body == &joint.mobile ? radius : std::nullopt)});
+             likely_unit_text(size, body == &joint.mobile ? radius : std::nullopt) + of_an_animal});
   }
   if (!head) return found;
   if (auto note = joint.is_hip() ? disagreement(joint, *head) : std::nullopt) {
     found.notes.push_back(std::move(*note));
   } else if (const auto unit = unit_of_head(*radius);
-             found.notes.empty() && unit && *unit != LengthUnit::millimetres) {
+             is_human && found.notes.empty() && unit && *unit != LengthUnit::millimetres) {
     found.notes.push_back(
         {JointNoteCode::unlikely_size,
          "the head of " + joint.mobile.name +
              formatted(" has a radius of %.3g mm in the units stated, and no adult's has: is it in ",
                        *radius) +
-             std::string(plural_of(*unit)) + "?"});
+             std::string(plural_of(*unit)) + "?" + of_an_animal});
   }
   return found;
 }

@@ -12,6 +12,7 @@
 #include "core/coordinate_range.hpp"
 #include "core/extended.hpp"
 #include "core/formatted.hpp"
+#include "core/lower_case.hpp"
 #include "core/rounded.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/body_pieces.hpp"
@@ -148,8 +149,8 @@ void check_rounding(const JointDescription& description, const Pose& X_WF) {
 }
 
 /// A fit may fail because the units are wrong: then no bone has the size that the mesh has in mm.
-std::string size_hint(const TriMesh& mesh_in_mm) {
-  if (likely_unit(mesh_in_mm).unit == LengthUnit::millimetres) return "";
+std::string size_hint(const TriMesh& mesh_in_mm, const Person& of) {
+  if (!of.is_human() || likely_unit(mesh_in_mm).unit == LengthUnit::millimetres) return "";
   return formatted("; in the units stated it is %.4g mm across, and no human bone is: are the units right?",
                    mesh::bounds_of_surface(mesh_in_mm).diagonal());
 }
@@ -223,7 +224,7 @@ Pose fitted_frame(const JointDescription& description, const CentreFit& fit, con
       placement.cylinder = find_cylinder(mesh, {.within = fit.within});
     }
   } catch (const MeshError& error) {
-    throw MeshError("frame.centre: " + body.name + ": " + error.what() + size_hint(mesh));
+    throw MeshError("frame.centre: " + body.name + ": " + error.what() + size_hint(mesh, description.person));
   }
   if (placement.sphere) return frame_about(placement.sphere->fit.sphere.centre, description);
   const Cylinder& cylinder = placement.cylinder->cylinder;
@@ -408,11 +409,17 @@ Ligament placed_ligament(const DescribedLigament& described, const JointDescript
 
 }  // namespace
 
+bool Person::is_human() const {
+  const std::string name = core::lower_case(species);
+  return name.empty() || name == "human" || name == "homo sapiens";
+}
+
 PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile) {
   JointPlacement placement{};
   placement.fixed.likely_unit = likely_unit(fixed.mesh);
   placement.mobile.likely_unit = likely_unit(mobile.mesh);
-  check_units(fixed, placement.fixed.likely_unit, mobile, placement.mobile.likely_unit);
+  if (description.person.is_human())
+    check_units(fixed, placement.fixed.likely_unit, mobile, placement.mobile.likely_unit);
   placement.X_WF = frame_of(description, fixed, mobile, placement);
   check_rounding(description, placement.X_WF);
 
@@ -444,6 +451,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   joint.zero_from = placement.zero_from;
   joint.planned = description.planned;
   joint.person = description.person;
+  joint.units = description.units;
   if (!description.ligaments.empty() && !parts.empty())
     throw UsageError(
         "ligament: a joint with parts that move in their body has none: they would not move along");

@@ -494,6 +494,9 @@ TEST_F(ReadJoint, APersonHasAnAgeASexOrBoth) {
   EXPECT_EQ(girl.age_years, 7.5);
   EXPECT_EQ(girl.sex, Sex::female);
   EXPECT_FALSE(read(table + "sex = \"male\"\n").joint.person.age_years);
+  for (const char* human : {"Human", "homo sapiens"})
+    EXPECT_TRUE(read(table + "species = \"" + human + "\"\n").joint.person.is_human());
+  EXPECT_FALSE(read(table + "species = \"cat\"\n").joint.person.is_human());
   EXPECT_EQ(refusal(table + "age = -1\n"), "line 17: person.age: must be 0 to 120 years");
   EXPECT_EQ(refusal(table + "age = 121\n"), "line 17: person.age: must be 0 to 120 years");
   EXPECT_NE(refusal(table + "sex = \"f\"\n").find("line 17: person.sex: "), std::string::npos);

@@ -125,15 +125,6 @@ TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
     EXPECT_NEAR(found[i].end.turned.degrees(), by_hand[i].end.turned.degrees(), 0.1) << found[i].motion.name;
 }
 
-TEST_P(ProposedHip, OfNoSizeOfHumanBonesNamesTheOptionThatSaysTheUnit) {
-  for (const double scale : {0.02, 2.5})
-    EXPECT_NE(proposed(Axes::joint, scale)
-                  .to_fill_in.at(0)
-                  .find("units: the sizes of the meshes do not speak for "
-                        "one unit of human bones: --units mm"),
-              std::string::npos);
-}
-
 TEST_P(ProposedHip, InCentimetresOrInchesNamesThatUnit) {
   const auto in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
   for (const auto& [word, mm] : {std::pair{"cm", 10.0}, std::pair{"in", 25.4}}) {
@@ -142,6 +133,31 @@ TEST_P(ProposedHip, InCentimetresOrInchesNamesThatUnit) {
     const auto found = limits(read(proposal.toml).joint);
     // Vertices are floats, a tenth of a micrometre off; a micrometre moves no limit of these hips by a hundredth of a degree.
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], in_mm[i], 0.01) << word;
+    EXPECT_NE(proposal.units_note.find("--units mm, or --species of an animal"), std::string::npos);
+  }
+}
+
+TEST_P(ProposedHip, OfAnimalsOfAnySizeIsInMillimetresWithDeviationsOfItsHead) {
+  EXPECT_NE(proposed(Axes::joint, 0.02).to_fill_in.at(0).find("--units mm, cm, in or m says which"),
+            std::string::npos);
+  const auto in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
+  for (const double scale : {0.02, 0.125, 2.5}) {
+    (void)proposed(Axes::joint, scale);
+    const io::JointProposal proposal = io::propose_joint({.fixed = folder_ / "bone.ply",
+                                                          .mobile = folder_ / "thigh.ply",
+                                                          .joint_file = folder_ / "joint.toml",
+                                                          .person = {.species = "cat"}});
+    EXPECT_TRUE(proposal.to_fill_in.empty() && proposal.units_note.empty()) << proposal.toml;
+    const io::LoadedJoint loaded = read(proposal.toml);
+    EXPECT_EQ(loaded.joint.units, LengthUnit::millimetres);
+    EXPECT_EQ(loaded.joint.person.species, "cat");
+    for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement))
+      EXPECT_NE(note.code, JointNoteCode::unlikely_size) << note.text;
+    // Three digits of 0.5 mm at a head of 24 mm.
+    const double centre = by_head(0.5, loaded.report.placement.sphere->fit.sphere);
+    EXPECT_NEAR(loaded.report.file.uncertainty.centre_mm, centre, 0.005 * centre);
+    const auto found = limits(loaded.joint);
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], in_mm[i], 0.01) << scale;
   }
 }
 

@@ -104,6 +104,7 @@ TEST_F(ProvenanceOfAJoint, IsOneLineForEachThingInACsv) {
       << text;
   EXPECT_NE(text.find("# side: left\n"), text.npos);
   EXPECT_NE(text.find("# frame: joint\n"), text.npos);
+  EXPECT_NE(text.find("# units_of_meshes: m\n"), text.npos);
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_TRUE(line.starts_with("# ")) << line;
   EXPECT_EQ(text.find(" -0 "), text.npos);

@@ -79,16 +79,18 @@ TEST(StudyTable, SaysWhoseJointsTheyAre) {
   const SmallCohort cohort(folder.path(), 1);
   const io::StudyTable table = io::read_study_table(
       folder.file("whose.csv",
-                  "id,joint,age,sex\na,hip1.toml,7,F\nb,hip1.toml,,male\nc,hip1.toml,,girl\n"
-                  "d,hip1.toml,old,\ne,hip1.toml,121,\n"));
+                  "id,joint,age,sex,species\na,hip1.toml,7,F,\nb,hip1.toml,,male,cat\nc,hip1.toml,,girl,\n"
+                  "d,hip1.toml,old,,\ne,hip1.toml,121,,\n"));
   const auto person = [&](std::size_t row) {
     return io::load_joint(table, table.rows.at(row)).loaded.joint.person;
   };
   EXPECT_EQ(person(0).age_years, 7);
   EXPECT_EQ(person(0).sex, Sex::female);
+  EXPECT_TRUE(person(0).is_human());
   EXPECT_EQ(person(1).sex, Sex::male);
+  EXPECT_EQ(person(1).species, "cat");
   for (const std::size_t bad : {2u, 3u, 4u}) EXPECT_THROW(person(bad), FileError) << bad;
-  EXPECT_EQ(table.carried.size(), 2u) << "they are covariates too";
+  EXPECT_EQ(table.carried.size(), 3u) << "they are covariates too";
 }
 
 TEST(StudyTable, TakesAByteOrderMarkCommentsAndLineEndsOfWindows) {

@@ -132,6 +132,12 @@ const std::vector<Case> wrong_set_ups{
      vhf,
      [](HipSetUp& s) { s.fixed = scaled(s.fixed, 1e-3), s.mobile = scaled(s.mobile, 1e-3); },
      {Code::unlikely_size, Code::unlikely_size}},
+    {"AMouse",
+     vhf,
+     [](HipSetUp& s) {
+       s.fixed = scaled(s.fixed, 0.03), s.mobile = scaled(s.mobile, 0.03), s.joint.person.species = "mouse";
+     },
+     {}},
     {"CentreOffBy3mm", vhf, with_centre({0, -3, 0}), {Code::centre_off_head}},
     {"CentreOffBy50mm", vhf, with_centre({-30, 40, 0}), {Code::centre_off_head}},
     {"CentreAtTheOtherEndOfTheFemur", vhf, with_centre({0, -400, 0}), {Code::centre_off_head}},

@@ -68,6 +68,8 @@ def test_a_person_of_arrays_has_an_age_and_a_sex():
     joint = condyle.Joint(bones.hip_bone, bones.femur, person={"age": 7, "sex": "female"}, reference_pose={})
     assert joint.person == {"age": 7, "sex": "female"}
     assert joint.range_of_motion(["flexion"])["flexion"].living.people.low_deg == 140.8
+    animal = condyle.Joint(bones.hip_bone, bones.femur, person={"species": "gorilla"}, reference_pose={})
+    assert animal.person == {"species": "gorilla"} and animal.range_of_motion(["flexion"])["flexion"].living is None
     for person, what in (({"age": 121}, "person: age"), ({"sex": "f"}, "person: sex"), ({"years": 7}, "person"), (7, "person")):
         with pytest.raises(condyle.UsageError, match=what):
             condyle.Joint(bones.hip_bone, bones.femur, person=person)

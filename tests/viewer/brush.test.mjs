@@ -186,7 +186,7 @@ test("a plan's cut is the first step", async () => {
 });
 
 test("bones are kept as STL with a joint file that names them, whose they are, and their ligaments", async () => {
-  withText("whose", ({ joint }) => Object.assign(joint, { person: { age: 31, sex: "female" }, ligaments: "\n[[ligament]]\nname = \"string\"\nfixed = [0, 50, 0]\nmobile = [0, -50, 0]\nslack_length = 200\n" }));
+  withText("whose", ({ joint }) => Object.assign(joint, { person: { age: 31, sex: "female", species: "gorilla" }, ligaments: "\n[[ligament]]\nname = \"string\"\nfixed = [0, 50, 0]\nmobile = [0, -50, 0]\nslack_length = 200\n" }));
   const { page } = await opened("whose");
   const { array } = readReport(pathOf("sample"));
   await changed(page, strokeAtLimit(page));
@@ -204,7 +204,7 @@ test("bones are kept as STL with a joint file that names them, whose they are, a
     assert.ok(toml.includes(`[${body}]`) && toml.includes(`mesh = "brushed_${body}.stl"`), toml);
   }
   assert.match(toml, /^condyle = 1$/m);
-  assert.match(toml, /^\[person\]\nage = 31\nsex = "female"$/m);
+  assert.match(toml, /^\[person\]\nage = 31\nsex = "female"\nspecies = "gorilla"$/m);
   assert.match(toml, /^\[\[ligament\]\]\nname = "string"$/m);
   assert.match(toml, /^planned = "changed by strokes"$/m);
   assert.match(toml, /^\[mobile\.head\]/m);

@@ -87,8 +87,8 @@ function partLines({ name, body, meshes, centre_mm, definition, parameters }: St
 }
 
 function personLines({ person }: ReportText["joint"]): string[] {
-  const { age, sex } = person ?? {};
-  return person ? ["", "[person]", ...(age === undefined ? [] : [`age = ${age}`]), ...(sex ? [`sex = "${sex}"`] : [])] : [];
+  const { age, sex, species } = person ?? {};
+  return person ? ["", "[person]", ...(age === undefined ? [] : [`age = ${age}`]), ...(sex ? [`sex = "${sex}"`] : []), ...(species ? [`species = ${quoted(species)}`] : [])] : [];
 }
 
 /// Parts that were turned, and their values.

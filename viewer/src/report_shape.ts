@@ -24,6 +24,7 @@ const rom = object({
   }))),
   provenance: ifThere(object({
     version: text, command: list(text), joint_file: meshFile, fixed_mesh: meshFiles, mobile_mesh: meshFiles, planned: ifThere(text),
+    units_of_meshes: ifThere(text),
     parameters: ifThere(list(object({ name: text, value: number, unit: text, in_joint_file: number }))),
   })),
 });
@@ -108,7 +109,7 @@ const report = object({
   joint: object({
     name: text, kind: oneOf("ball", "hinge", "free"), anatomy: oneOf("hip", "knee", "ankle", "elbow", "shoulder"),
     side: oneOf("right", "left"), fixed: text, mobile: text, translation_frame: oneOf("fixed", "joint_axes"),
-    planned: ifThere(text), person: ifThere(object({ age: ifThere(number), sex: ifThere(oneOf("female", "male")) })), ligaments: ifThere(text),
+    planned: ifThere(text), person: ifThere(object({ age: ifThere(number), sex: ifThere(oneOf("female", "male")), species: ifThere(text) })), ligaments: ifThere(text),
   }),
   coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
   scope: ifThere(text), rom: orNull(rom), rom_error: ifThere(text),

@@ -556,6 +556,7 @@ export const words = {
   bytes: "bytes",
   files: "Files",
   madeHere: (version: string) => `By condyle ${version} in this page, from dropped files`,
+  meshesIn: (unit: string) => `Meshes in ${unit}`,
   madeBy: (version: string, command: string) => `By condyle ${version}, command: ${command}`,
   licences: "Licences of the software in this page",
 };

@@ -198,6 +198,7 @@ struct ProposalRequest {
   std::optional<LengthUnit> units = {};        ///< default: inferred from their size
   std::optional<Anatomy> anatomy = {};         ///< which joint it is; default: a hip
   PolygonRule polygons = PolygonRule::refuse;  ///< of both meshes; the file says so too
+  Person person = {};  ///< stands in the file; of another species than human no unit is inferred from sizes
 };
 
 /// A joint file, complete but for what could not be inferred.
@@ -206,6 +207,8 @@ struct JointProposal {
   std::vector<std::string> to_fill_in;  ///< keys that stand in it as comments, with the reason
   std::optional<Side> side;             ///< as the file has it
   std::vector<std::string> evidence;  ///< for side and axes, one line each with its vote; comments in it too
+  /// A sentence if the unit was inferred and is not millimetres, or is not the same of both meshes; else empty.
+  std::string units_note = {};
 };
 
 /// Proposes a joint file for two meshes: kind, centre, axes, side and units, each with the evidence for it. A hip's axes are

@@ -93,6 +93,7 @@ struct Provenance {
   std::vector<OtherFile> other_files =
       {};                    ///< read beside joint file and meshes, in the order of their paths
   std::string planned = {};  ///< as Joint::planned
+  LengthUnit units_of_meshes = LengthUnit::millimetres;  ///< of the files
 };
 [[nodiscard]] Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
                                        AnswerFrameName frame = AnswerFrameName::joint);

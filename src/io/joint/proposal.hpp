@@ -39,6 +39,7 @@ struct ProposalFacts {
   std::optional<std::string> axes_by =
       {};  ///< who stated that the meshes are in LPS; default: inferred from the bones
   std::optional<Anatomy> anatomy = {};  ///< default: a hip
+  Person person = {};                   ///< as ProposalRequest
 };
 
 JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts);

@@ -48,13 +48,22 @@ void add_head(ProposalLines& lines, const ProposedBody& fixed, const ProposedBod
   lines.add("name = " + toml_text(mobile.name + " in " + fixed.name));
 }
 
-void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& units) {
-  if (units)
-    lines.key("units", fmt::format("\"{}\"", name_of(units->value)), units->by);
-  else
-    lines.missing("units", "\"mm\", \"cm\", \"in\" or \"m\"",
-                  "the sizes of the meshes do not speak for one unit of human bones: --units mm, cm, in or m "
-                  "says which");
+void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& units,
+               const ProposedBody& fixed, const ProposedBody& mobile) {
+  if (!units)
+    return lines.missing(
+        "units", "\"mm\", \"cm\", \"in\" or \"m\"",
+        "the sizes of the meshes do not speak for one unit of human bones: --units mm, cm, in "
+        "or m says which, and --species whose they are if not a human's");
+  lines.key("units", fmt::format("\"{}\"", name_of(units->value)), units->by);
+  std::string note;
+  if (units->value != LengthUnit::millimetres && units->by.starts_with("inferred"))
+    note = fmt::format("the meshes are taken to be in {}, {}", plural_of(units->value), units->by);
+  for (const ProposedBody* body : {&fixed, &mobile})
+    if (body->scale != 1)
+      note += fmt::format("{}{} is scaled by {:g}, {}", note.empty() ? "" : "; ", body->name, body->scale,
+                          body->scale_by);
+  if (!note.empty()) lines.units_note = note + ": --units mm, or --species of an animal, says otherwise";
 }
 
 void add_image(ProposalLines& lines, std::string_view role, const std::optional<BodyImage>& image) {

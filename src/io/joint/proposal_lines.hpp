@@ -35,8 +35,10 @@ class ProposalLines {
     evidence_.push_back(line);
   }
 
+  std::string units_note;
+
   JointProposal proposal(std::optional<Side> side) && {
-    return {std::move(text_), std::move(to_fill_in_), side, std::move(evidence_)};
+    return {std::move(text_), std::move(to_fill_in_), side, std::move(evidence_), std::move(units_note)};
   }
 
  private:
@@ -48,8 +50,9 @@ class ProposalLines {
 void add_head(ProposalLines& lines, const ProposedBody& fixed, const ProposedBody& mobile,
               const ProposalFacts& facts);
 
-/// Empty if nothing speaks for one unit.
-void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& units);
+/// `units` is empty if nothing speaks for one unit. A unit that was inferred and is not millimetres is noted.
+void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& units,
+               const ProposedBody& fixed, const ProposedBody& mobile);
 
 /// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.
 void add_image(ProposalLines& lines, std::string_view role, const std::optional<BodyImage>& image);

@@ -8,6 +8,7 @@
 
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
 #include "core/rounded.hpp"
 #include "core/trigonometry.hpp"
@@ -15,6 +16,7 @@
 #include "io/joint/proposal_lines.hpp"
 #include "io/joint/propose_other_joint.hpp"
 #include "io/joint/propose_units.hpp"
+#include "io/joint/settings_lines.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "mesh/enclosed_volume.hpp"
@@ -114,6 +116,14 @@ void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy
                                     : std::string()));
 }
 
+/// The usual deviations are a human's: those of another species are as large a share of the head's radius.
+void add_uncertainty(ProposalLines& lines, const Sphere& head, double per_mm) {
+  const motion::Uncertainty usual;
+  lines.add("\n[uncertainty]  # the share of the head's radius that a human hip has");
+  lines.add(fmt::format("centre = {:.3g}\nsurface = {:.3g}", by_head(usual.centre_mm, head) * per_mm,
+                        by_head(usual.surface_mm, head) * per_mm));
+}
+
 }  // namespace
 
 JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts) {
@@ -160,7 +170,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
     add_side(
         lines, facts.side, side,
         axes.agreeing.empty() ? axes.why_none : "more than one pair of axes and side agrees with the bones");
-  add_units(lines, inferred);
+  add_units(lines, inferred, fixed, mobile);
 
   add_body(lines, "fixed", fixed, facts.joint_file);
   add_body(lines, "mobile", mobile, facts.joint_file);
@@ -176,6 +186,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
     lines.missing("superior", "[x, y, z]", "as anterior");
   }
   for (const std::string& line : axes.evidence) lines.evidence(line);
+  if (hip && !facts.person.is_human()) add_uncertainty(lines, hip->head.fit.sphere, 1 / mm_per(units));
   return std::move(lines).proposal(stated);
 }
 
@@ -190,12 +201,19 @@ JointProposal propose_joint(const ProposalRequest& request) {
   if (request.side) facts.side = {*request.side, "given"};
   if (request.units) facts.units = {*request.units, "given"};
   facts.anatomy = request.anatomy;
+<<<<<<< HEAD
   ProposedBody fixed = body(request.fixed), mobile = body(request.mobile);
   if (fixed.mesh.vertices == mobile.mesh.vertices && fixed.mesh.triangles == mobile.mesh.triangles)
     throw UsageError(
         fmt::format("{} and {} are the same mesh: two bones are needed, the one that stays first",
                     request.fixed.string(), request.mobile.string()));
   return io::proposal_of(std::move(fixed), std::move(mobile), facts);
+=======
+  facts.person = request.person;
+  JointProposal proposal = io::proposal_of(body(request.fixed), body(request.mobile), facts);
+  proposal.toml += person_text(request.person);
+  return proposal;
+>>>>>>> 89333086 (Take bones of another species than human as they are, and say the unit of meshes that are not in millimetres)
 }
 
 }  // namespace condyle::io

@@ -306,7 +306,8 @@ std::pair<std::optional<Stated<LengthUnit>>, ShownJoint> shown_in_some_unit(Anat
   };
   auto by_size = units_by_size(fixed, mobile, facts);
   ShownJoint joint = in_unit(by_size ? by_size->value : LengthUnit::millimetres);
-  if (joint.centre.value || facts.units) return {std::move(by_size), std::move(joint)};
+  if (joint.centre.value || facts.units || !facts.person.is_human())
+    return {std::move(by_size), std::move(joint)};
   const double size = std::max(mesh::bounds_of_surface(fixed.mesh).diagonal(),
                                mesh::bounds_of_surface(mobile.mesh).diagonal());
   constexpr double shortest_mm = 55, longest_mm = 600;  // of the larger bone of such a joint
@@ -337,7 +338,7 @@ JointProposal proposal_of_other(ProposedBody fixed, ProposedBody mobile, Anatomy
   lines.key("kind", toml_word(joint.kind), joint.kind_says);
   for (const std::string& choice : joint.other_choices) lines.add("# " + choice);
   const std::optional<Side> side = add_side(lines, facts.side, joint, anatomy);
-  add_units(lines, inferred);
+  add_units(lines, inferred, fixed, mobile);
   add_body(lines, "fixed", fixed, facts.joint_file);
   add_body(lines, "mobile", mobile, facts.joint_file);
   lines.add("\n[frame]");

@@ -29,6 +29,9 @@ std::string by_radius(std::string_view what, double radius, LengthUnit unit) {
 std::optional<Stated<LengthUnit>> units_by_size(const ProposedBody& fixed, const ProposedBody& mobile,
                                                 const ProposalFacts& facts) {
   if (facts.units) return facts.units;
+  if (!facts.person.is_human())
+    return Stated<LengthUnit>{LengthUnit::millimetres,
+                              "as written: sizes of another species than human speak for no unit"};
   const LikelyUnit of_fixed = likely_unit(fixed.mesh), of_mobile = likely_unit(mobile.mesh);
   if (!of_mobile.unit || of_fixed.unit != of_mobile.unit) return std::nullopt;
   return Stated<LengthUnit>{*of_mobile.unit, "inferred from the size of the meshes: " + of_mobile.reason};
@@ -37,7 +40,7 @@ std::optional<Stated<LengthUnit>> units_by_size(const ProposedBody& fixed, const
 std::optional<Stated<LengthUnit>> units_of_hip(ProposedBody& fixed, ProposedBody& mobile,
                                                const ProposalFacts& facts) {
   const auto by_size = units_by_size(fixed, mobile, facts);
-  if (facts.units) return by_size;
+  if (facts.units || !facts.person.is_human()) return by_size;
   const auto head = radius_on(mobile.mesh, SphericalPart::head);
   const auto of_head = head ? kinematics::unit_of_head(*head) : std::nullopt;
   if (!of_head) return by_size;

@@ -57,10 +57,11 @@ void add_recorded_motion(ProposalLines& lines, const RecordedMotionMapping& mapp
 }  // namespace
 
 std::string person_text(const Person& person) {
-  if (!person.age_years && !person.sex) return {};
+  if (!person.age_years && !person.sex && person.species.empty()) return {};
   std::string text = "\n[person]\n";
   if (person.age_years) text += fmt::format("age = {}\n", *person.age_years);
   if (person.sex) text += fmt::format("sex = \"{}\"\n", name_of(*person.sex));
+  if (!person.species.empty()) text += "species = " + toml_text(person.species) + "\n";
   return text;
 }
 

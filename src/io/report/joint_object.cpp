@@ -55,9 +55,10 @@ Json joint_json(const Joint& joint) {
             {"mobile", joint.mobile.name},
             {"translation_frame", name_of(joint.translation_frame)}};
   if (std::string planned = planned_text(joint); !planned.empty()) json["planned"] = std::move(planned);
-  const auto& [age_years, sex] = joint.person;
+  const auto& [age_years, sex, species] = joint.person;
   if (age_years) json["person"]["age"] = *age_years;
   if (sex) json["person"]["sex"] = name_of(*sex);
+  if (!species.empty()) json["person"]["species"] = species;
   if (!joint.ligaments.empty()) json["ligaments"] = ligaments_text(joint.ligaments, 1);
   return json;
 }

@@ -11,6 +11,7 @@
 
 #include "condyle/joint_checks.hpp"
 #include "io/file/csv_fields.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
 #include "io/result/scope_text.hpp"
@@ -92,7 +93,11 @@ std::string both_sides_text(const RomResult& left, const RomResult& right) {
   for (const RomResult* side : {&left, &right})
     if (!zero_pose(side->joint).is_neutral())
       unknown += fmt::format("{}{}", unknown.empty() ? "" : " and ", name_of(side->joint.side));
-  return table_text(columns) +
+  std::string whose;
+  for (const RomResult* side : {&left, &right})
+    if (const std::string text = whose_text(side->joint); !text.empty())
+      whose += std::string(name_of(side->joint.side)) + text + "\n";
+  return whose + table_text(columns) +
          (arcs.empty() ? "" : wrapped(fmt::format("  total arcs (deg), left and right:{}\n", arcs))) +
          (unknown.empty()
               ? ""

@@ -49,7 +49,7 @@ std::string depth_headline(const DepthQuestion& question, const DepthAnswer& ans
   if (joint.kind == JointKind::free)
     text += fmt::format(", x {}, y {}, z {} mm", pose.translation_mm.x(), pose.translation_mm.y(),
                         pose.translation_mm.z());
-  text += "\n" + parameters_text(joint);
+  text += whose_text(joint) + "\n" + parameters_text(joint);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   return text + fmt::format("  {}; {} intersecting triangle pairs\n",
                             answer.in_contact() ? "in contact" : "free", pairs);

@@ -122,8 +122,8 @@ PoseDegrees reference_pose_of(const JointReport& report) {
 std::string to_text(const LoadedJoint& loaded) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
-  std::string out = fmt::format("{}: {} joint{}, {} side\n", joint.name, name_of(joint.kind),
-                                words_of_anatomy(joint), name_of(joint.side));
+  std::string out = fmt::format("{}: {} joint{}, {} side{}\n", joint.name, name_of(joint.kind),
+                                words_of_anatomy(joint), name_of(joint.side), whose_text(joint));
   out += io::parameters_text(joint);
   out += fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre",
                      shown(placement.X_WF.translation()));

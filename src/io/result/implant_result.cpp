@@ -184,7 +184,7 @@ std::string implant_text(const ImplantResult& result) {
   const ImplantAnswer& answer = result.answer;
   std::string text =
       fmt::format("{}: total hip in its place, {} side, angles in the frame: {}\n", result.joint.name,
-                  name_of(result.joint.side), measure::stated_frame(answer.bones));
+                  name_of(result.joint.side), measure::stated_frame(answer.bones) + whose_text(result.joint));
   text += io::parameters_text(result.joint);
   text += indented(implant_lines(answer.hip, result.joint.side)) + rim_line(result) + cup_line(answer);
   text += centre_lines(result) + stem_lines(answer);

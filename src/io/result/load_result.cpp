@@ -103,8 +103,8 @@ std::string surface_text(const ContactEntry& contact, const Body& body,
 
 std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   const Joint& joint = question.joint;
-  std::string text = fmt::format("{}: {} in {}, {}\n", joint.name, joint.mobile.name, joint.fixed.name,
-                                 to_text(question.pose, joint.anatomy));
+  std::string text = fmt::format("{}: {} in {}, {}{}\n", joint.name, joint.mobile.name, joint.fixed.name,
+                                 to_text(question.pose, joint.anatomy), whose_text(joint));
   text += io::parameters_text(joint);
   text += io::contact_caveats_text(question.contact, question.surfaces, true);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);

@@ -124,8 +124,8 @@ std::string csv_number(const std::optional<double>& value) {
 
 std::string measure_text(const MeasureResult& result, bool with_definitions) {
   const Joint& joint = result.joint;
-  std::string text = fmt::format("{}: measures of {} and {}, {} side\n", joint.name, joint.mobile.name,
-                                 joint.fixed.name, name_of(joint.side));
+  std::string text = fmt::format("{}: measures of {} and {}, {} side{}\n", joint.name, joint.mobile.name,
+                                 joint.fixed.name, name_of(joint.side), whose_text(joint));
   text += io::parameters_text(joint);
   text += fmt::format("  pelvis: {}\n", pelvis_text(result.answer.measures));
   std::size_t widest = 0;

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/one_line.hpp"
 #include "kinematics/ligament_path.hpp"
 
 namespace condyle::io {
@@ -11,6 +12,14 @@ namespace condyle::io {
 std::string planned_text(const Joint& joint) {
   const std::string changed = changed_parameters(joint);
   return joint.planned + (joint.planned.empty() || changed.empty() ? "" : ", ") + changed;
+}
+
+std::string whose_text(const Joint& joint) {
+  std::string text;
+  if (joint.units != LengthUnit::millimetres) text += fmt::format(", meshes in {}", plural_of(joint.units));
+  if (!joint.person.is_human())
+    text += fmt::format(", of {}", core::one_line(joint.person.species, joint.person.species.size()));
+  return text;
 }
 
 std::string parameters_text(const Joint& joint) {

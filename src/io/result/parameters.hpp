@@ -14,6 +14,9 @@ namespace condyle::io {
 /// What a plan did to the joint and the values that its parts were set to; empty if it is as its file has it and as it was measured.
 std::string planned_text(const Joint& joint);
 
+/// ", meshes in centimetres", and of another species than human which: behind what an answer begins with. Empty of a human's in millimetres.
+std::string whose_text(const Joint& joint);
+
 /// Lines on what is planned, on the parameters whose values are not those of the joint file, and on the angles of the cup of an implant by each definition;
 /// nothing if there is neither.
 std::string parameters_text(const Joint& joint);

@@ -185,7 +185,8 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           loaded.joint.posed ? loaded.joint.posed->parts : std::vector<PosedPart>{},
           cup_of(loaded.joint),
           {},
-          loaded.joint.planned};
+          loaded.joint.planned,
+          report.file.joint.units};
 }
 
 std::string command_text(const std::vector<std::string>& words) {
@@ -211,6 +212,7 @@ Json provenance_json(const Provenance* from) {
             {"joint_file", file_json(from->joint_path, from->joint_digest)},
             {"side", name_of(from->side)},
             {"frame", name_of(from->frame.name())},
+            {"units_of_meshes", name_of(from->units_of_meshes)},
             {"fixed_mesh", mesh_json(from->fixed)},
             {"mobile_mesh", mesh_json(from->mobile)}};
   if (!from->planned.empty()) json["planned"] = from->planned;
@@ -236,6 +238,7 @@ std::vector<VtpField> provenance_fields(const Provenance* from) {
   add("mobile_mesh", files_text(from->mobile));
   add("side", std::string(name_of(from->side)));
   add("frame", std::string(name_of(from->frame.name())));
+  add("units_of_meshes", std::string(name_of(from->units_of_meshes)));
   if (!from->planned.empty()) add("planned", from->planned);
   if (!from->parts.empty()) add("parameters", values_text(from->parts));
   if (!from->other_files.empty()) add("other_files", files_text(from->other_files));

@@ -222,8 +222,8 @@ std::string exact_vector(const Vec3& v) {
 
 std::string resection_text(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
-  std::string text =
-      fmt::format("{}: bone that must go, {} side\n", result.joint.name, name_of(result.joint.side));
+  std::string text = fmt::format("{}: bone that must go, {} side{}\n", result.joint.name,
+                                 name_of(result.joint.side), whose_text(result.joint));
   text += io::parameters_text(result.joint);
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i)
     text += target_line(answer.resection.targets[i], answer.bands, i);

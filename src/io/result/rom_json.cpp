@@ -166,7 +166,9 @@ Json rom_object(const RomResult& result) {
                       : result.answer.clock_plane == motion::ClockPlane::rim ? Json("rim")
                                                                              : Json("sagittal")},
       {"zero", zero_json(result.joint)},
-      {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
+      {"normal_range_source", result.joint.is_hip() && result.joint.person.is_human()
+                                  ? Json(normal_hip_range_source)
+                                  : Json(nullptr)},
       {"held_translation_mm",
        result.answer.held_translation_mm ? io::numbers(*result.answer.held_translation_mm) : Json(nullptr)},
       {"exact", !result.answer.follows && result.answer.depths.empty()},

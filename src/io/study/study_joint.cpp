@@ -110,6 +110,8 @@ void set_person(Person& person, const StudyTable& table, const StudyRow& row) {
                                                                {"f", Sex::female},      {"m", Sex::male},
                                                                {"F", Sex::female},      {"M", Sex::male}};
   if (!table.field(row, "sex").empty()) person.sex = one_of(table, row, "sex", sexes);
+  if (const std::string_view species = table.field(row, "species"); !species.empty())
+    person.species = species;
 }
 
 LoadedJoint made(const StudyTable& table, const StudyRow& row) {

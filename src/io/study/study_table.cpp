@@ -51,7 +51,7 @@ std::vector<std::string> missing_columns(const StudyTable& table) {
     for (const sample::HipMeasure& measure : sample::hip_measures()) add({measure.name});
   if (!of_samples && !of_meshes && !of_labels && !of_models)
     add({"joint", "fixed", "mobile", "labels", "opensim_model", "sample"});
-  add({"pelvic_tilt_deg"});
+  add({"pelvic_tilt_deg", "species"});
   if (!has("age")) add({"age_years"});
   return names;
 }

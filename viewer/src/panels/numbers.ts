@@ -42,9 +42,10 @@ export function methodOf(report: ReportText, counts: { fixed: [number, number]; 
 }
 
 export function sourcesOf(provenance: NonNullable<RomAnswer["provenance"]>, title: string = words.files): HTMLElement[] {
-  const { version, command } = provenance, files = filesOf(provenance);
+  const { version, command, units_of_meshes } = provenance, files = filesOf(provenance);
   return [
     html("p", {}, shortened(command?.length ? words.madeBy(version, command.join(" ")) : words.madeHere(version), longestLine)),
+    ...((units_of_meshes ?? "mm") === "mm" ? [] : [html("p", {}, words.meshesIn(units_of_meshes!))]),
     table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]), title),
   ];
 }
