@@ -136,19 +136,26 @@ std::vector<Propose> joints_of_labels(const HipArguments& options) {
 std::vector<Propose> joints_of_meshes(const HipArguments& options) {
   if (options.femora.empty()) throw UsageError("FEMUR: the mesh of one femur is needed, or of both");
   std::vector<Propose> joints;
-  for (const std::string& femur : options.femora)
-    joints.emplace_back([&options, femur] {
-      return Proposed{io::propose_joint(
-                          io::ProposalRequest{.fixed = options.pelvis,
-                                              .mobile = femur,
-                                              .joint_file = options.joint_file(Side::left),
-                                              .side = options.side,
-                                              .units = options.units,
-                                              .anatomy = Anatomy::hip,
-                                              .polygons = options.polygons.value_or(io::PolygonRule::refuse),
-                                              .person = options.person}),
-                      std::nullopt, femur};
-    });
+  const auto add = [&](io::ProposalRequest request, const std::string& femur) {
+    joints.emplace_back([=] { return Proposed{io::propose_joint(request), std::nullopt, femur}; });
+  };
+  for (const std::string& femur : options.femora) {
+    io::ProposalRequest request{.fixed = options.pelvis,
+                                .mobile = femur,
+                                .joint_file = options.joint_file(Side::left),
+                                .side = options.side,
+                                .units = options.units,
+                                .anatomy = Anatomy::hip,
+                                .polygons = options.polygons.value_or(io::PolygonRule::refuse),
+                                .person = options.person};
+    const std::vector<std::size_t> both = io::femora_in(request);
+    if (both.empty()) add(request, femur);
+    for (const std::size_t piece : both) {
+      request.mobile_piece = piece;
+      request.side.reset();  // each is of its own
+      add(request, femur);
+    }
+  }
   return joints;
 }
 
@@ -361,6 +368,7 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
     std::string whose;
     try {
       Proposed proposed = propose();
+      if (options.side && proposed.joint.side.value_or(*options.side) != *options.side) continue;
       const Side side = write_joint(options, proposed);
       whose = std::string(name_of(side)) + ": ";
       answer_hip(options, side, command, answered);

@@ -157,7 +157,8 @@ std::size_t flip_inverted(TriMesh& mesh);
 /// The piece of most volume among those that lie in no other; of most area if the mesh is open. n log n.
 [[nodiscard]] TriMesh largest_piece(const Mesh& mesh);
 
-/// The piece whose surface is nearest a point, such as a joint centre: of two legs the one at this hip. n log n.
+/// The piece whose surface is nearest a point, such as a joint centre, and those that come as near but for a tenth of the root of the mesh's
+/// area, some 25 mm of a bone: the parts of a child's hip bone, which meet in its socket, but of two legs the one at this hip. n log n.
 [[nodiscard]] TriMesh piece_at(const Mesh& mesh, const Vec3& point);
 
 /// The three as values, for lists of them.

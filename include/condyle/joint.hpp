@@ -50,10 +50,18 @@ struct ImageCut {
   double offset_mm = 0;
 };
 
+enum class JointNoteCode : std::uint8_t;  // joint_checks.hpp
+struct JointNote {
+  JointNoteCode code;
+  std::string text;  ///< one sentence
+};
+
 /// The image that the surface of a bone was extracted from, in the frame of the bone's mesh.
 struct BodyImage {
   Eigen::Matrix3d voxel = Eigen::Matrix3d::Zero();  ///< columns: the edges of a voxel, mm
   std::vector<ImageCut> cuts = {};
+  /// What the surface leaves out of the image, or the image makes doubtful: check_joint() repeats it.
+  std::vector<JointNote> notes = {};
 
   /// Width of a voxel along a unit direction, mm.
   [[nodiscard]] double voxel_width_mm(const Vec3& direction) const noexcept {

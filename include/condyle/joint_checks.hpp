@@ -23,17 +23,20 @@ enum class JointNoteCode : std::uint8_t {
   separate_pieces,    ///< A body is more than one piece.
   doubled_triangles,  ///< Closed, with triangles that lie on others: what they enclose counts twice.
   part_is_most,  ///< A part that is cut off the fixed body is more of it than the rest: normals that point inwards.
-  cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
-  flat_end,           ///< It ends in a plane near the joint, as a bone that was cut for export: likewise.
-  same_mesh,          ///< Both bodies are one mesh.
-  swapped_bodies,     ///< The head is on the fixed body.
-  unlikely_joint,     ///< A head in a socket, and another joint or a hinge stated.
-  no_head,            ///< A hip without one: every contact ends a motion.
-  low_coverage,       ///< Little of a sphere or of a turn was there to fit.
-  uncertain_fit,      ///< Parts of the surface give different centres or axes.
-  far_centre,         ///< The bones of a knee, ankle or elbow are nearest each other far from it.
-  centre_off_head,    ///< The joint centre is not that of the head.
-  head_socket_apart,  ///< Head and socket have different centres, or a humeral head is beside its glenoid.
+  pieces_left_out,      ///< Pieces of the label of a bone are not in its surface.
+  interpolated_labels,  ///< Labels were interpolated and rounded: a bone lies in a shell of others.
+  thick_slices,         ///< Voxels are too large to resolve the joint space.
+  cut_by_view,          ///< It ends where its image ends: what is missing may end a motion earlier.
+  flat_end,             ///< It ends in a plane near the joint, as a bone that was cut for export: likewise.
+  same_mesh,            ///< Both bodies are one mesh.
+  swapped_bodies,       ///< The head is on the fixed body.
+  unlikely_joint,       ///< A head in a socket, and another joint or a hinge stated.
+  no_head,              ///< A hip without one: every contact ends a motion.
+  low_coverage,         ///< Little of a sphere or of a turn was there to fit.
+  uncertain_fit,        ///< Parts of the surface give different centres or axes.
+  far_centre,           ///< The bones of a knee, ankle or elbow are nearest each other far from it.
+  centre_off_head,      ///< The joint centre is not that of the head.
+  head_socket_apart,    ///< Head and socket have different centres, or a humeral head is beside its glenoid.
   socket_smaller_than_head,  ///< By their fitted radii.
   socket_larger_than_head,   ///< So much that the head is none of a bone: an implant's ball without its cup.
   axes_not_upright,          ///< Superior does not point up the bones.
@@ -49,11 +52,6 @@ enum class JointNoteCode : std::uint8_t {
 
 /// As in files: "wrong_side".
 [[nodiscard]] std::string_view name_of(JointNoteCode code) noexcept;
-
-struct JointNote {
-  JointNoteCode code;
-  std::string text;  ///< one sentence
-};
 
 /// A joint centre farther than this from that of the head, mm: limits change by 2 to 6 degrees with each millimetre.
 inline constexpr double farthest_from_head_mm = 1;

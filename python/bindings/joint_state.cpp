@@ -35,13 +35,13 @@ constexpr bool is_one_of = (std::is_same_v<T, Of> || ...);
 template <class T, class Each>
 void members(T& value, const Each& each) {
   using Struct = std::remove_const_t<T>;
-  if constexpr (is_one_of<Struct, TriMesh, CoordinateSystem, BodyImage, ImageCut, CutPlane, DescribedPart,
+  if constexpr (is_one_of<Struct, TriMesh, CoordinateSystem, JointNote, ImageCut, CutPlane, DescribedPart,
                           Sphere, FrameDirections, FemurLandmarks, CentreFit, JointCoordinates, LikelyUnit,
                           BoundingBox, BodyPlacement, contact::NormalDepthOptions, contact::HalfSpace,
                           io::RegionEntry, io::FileDigest, RepairDone, io::LoadedJoint>) {
     auto& [a, b] = value;
     each(a, b);
-  } else if constexpr (is_one_of<Struct, Points, PosedParts, UnposedBody, SphericalPatch, Cylinder,
+  } else if constexpr (is_one_of<Struct, Points, BodyImage, PosedParts, UnposedBody, SphericalPatch, Cylinder,
                                  AxisErrors, AnteriorPelvicPlane, TransepicondylarAxis, FrameDescription,
                                  JointAngles, io::ColumnsOfPoses, io::PosesOfModel, plan::CupAngles,
                                  Person>) {
@@ -73,17 +73,10 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l);
-<<<<<<< HEAD
   } else if constexpr (is_one_of<Struct, Joint>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m);
   } else if constexpr (is_one_of<Struct, io::JointFile>) {
-=======
-  } else if constexpr (is_one_of<Struct, io::JointFile>) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
-    each(a, b, c, d, e, f, g, h, i, j, k, l, m);
-  } else if constexpr (is_one_of<Struct, Joint>) {
->>>>>>> 89333086 (Take bones of another species than human as they are, and say the unit of meshes that are not in millimetres)
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   } else if constexpr (is_one_of<Struct, JointDescription, plan::ReverseShoulder>) {

@@ -205,7 +205,8 @@ void note_sliding(const Joint& joint, std::span<const motion::MotionLimit> limit
 void note_narrow_margin(const Joint& joint, const motion::NarrowMargin& narrow,
                         std::vector<RangeNote>& notes) {
   const bool is_rim = narrow.by == motion::MarginLimit::rim;
-  std::string text = is_rim
+  std::string text = !std::isfinite(narrow.gap_mm) ? "no rim was found round the head: "
+                     : is_rim
                          ? formatted("head and rim are only %.2f mm apart: ", narrow.gap_mm)
                          : joint.fixed.name + formatted(" leaves the head only %.2f mm beside its socket: ",
                                                         std::max(0.0, narrow.gap_mm));

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -524,10 +525,10 @@ SphericalPatch kinematics::stated_patch(const TriMesh& mesh, const Sphere& spher
 
 namespace {
 
-/// The sphere of a part. Of a socket round a head, spheres about its centre are grown too, and a part counts less the farther its centre is from
-/// that.
-SphericalPatch found_sphere(const TriMesh& mesh, const Radii& radii, const SphereSearch& search,
-                            const Sphere* head) {
+/// The spherical parts, the best first; one at least. Of a socket round a head, spheres about its centre are grown too, and a part counts less
+/// the farther its centre is from that.
+std::vector<BallPart> found_spheres(const TriMesh& mesh, const Radii& radii, const SphereSearch& search,
+                                    const Sphere* head) {
   const double reach = head ? by_head(normals_reach, *head) : normals_share * kinematics::root_of_area(mesh);
   const bool is_head = search.part == SphericalPart::head;
   auto points = kinematics::surface_points(mesh, search.within);
@@ -579,11 +580,16 @@ SphericalPatch found_sphere(const TriMesh& mesh, const Radii& radii, const Spher
     const double off = (part.patch.fit.sphere.centre - head->centre).norm() / (half_worth_off * head->radius);
     return part.support / (1 + off * off);
   };
-  const auto best = std::max_element(
-      parts.begin(), parts.end(), [&](const BallPart& a, const BallPart& b) { return worth(a) < worth(b); });
-  if (search.resamples > 0)
-    best->patch.centre_bound_mm = centre_bound(mesh, best->patch.fit, search.resamples);
-  return std::move(best->patch);
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](const BallPart& a, const BallPart& b) { return worth(a) > worth(b); });
+  return parts;
+}
+
+SphericalPatch found_sphere(const TriMesh& mesh, const Radii& radii, const SphereSearch& search,
+                            const Sphere* head) {
+  SphericalPatch best = std::move(found_spheres(mesh, radii, search, head).front().patch);
+  if (search.resamples > 0) best.centre_bound_mm = centre_bound(mesh, best.fit, search.resamples);
+  return best;
 }
 
 }  // namespace
@@ -595,6 +601,21 @@ SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search) {
 
 SphericalPatch kinematics::find_sphere_on(const TriMesh& mesh, const SphereSearch& search) {
   return found_sphere(mesh, radii_of(mesh, search), search, nullptr);
+}
+
+std::optional<SphericalPatch> kinematics::find_sphere_where(
+    const TriMesh& mesh, const SphereSearch& search, const std::function<bool(const SphericalPatch&)>& fits,
+    std::optional<bool> is_open) {
+  try {
+    for (BallPart& part : found_spheres(mesh, radii_of(mesh, search, is_open), search, nullptr)) {
+      if (!fits(part.patch)) continue;
+      if (search.resamples > 0)
+        part.patch.centre_bound_mm = centre_bound(mesh, part.patch.fit, search.resamples);
+      return std::move(part.patch);
+    }
+  } catch (const MeshError&) {  // nothing spherical
+  }
+  return std::nullopt;
 }
 
 SphericalPatch kinematics::find_socket_round(const TriMesh& mesh, const Sphere& head,

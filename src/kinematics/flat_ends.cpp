@@ -154,14 +154,6 @@ double section_area(const TriMesh& bone, const ImageCut& plane, double depth) {
   return std::abs(twice) / 2;
 }
 
-/// Whether the bone is little wider behind the face, as where it was cut off: the uppermost step of a staircase of voxels, a millimetre high,
-/// has a section of many times its area as far behind it.
-bool goes_on_behind(const TriMesh& bone, const ImageCut& plane, double face_area) {
-  constexpr double depth_in_radii = 0.4, most_wider = 2.5;
-  return section_area(bone, plane, depth_in_radii * std::sqrt(face_area / std::numbers::pi)) <=
-         most_wider * face_area;
-}
-
 /// Whether the face is one of some size that the bone was cut off in.
 bool is_cut_off(const TriMesh& bone, const ImageCut& plane, double least) {
   const std::vector<ImageCut> cut{plane};
@@ -209,6 +201,12 @@ bool is_of_image(const Body& body, const ImageCut& plane) {
          });
 }
 
+/// Whether the plane is that of a terrace of voxels on the head, which a slice through the bone leaves where the head ends.
+bool is_terrace(const Body& mobile, const Sphere& head, const ImageCut& plane) {
+  return mobile.image && std::abs(plane.offset_mm - plane.normal.dot(head.centre) - head.radius) <=
+                             mobile.image->voxel_width_mm(plane.normal);
+}
+
 /// Whether the plane is that of the rim of a socket, as of a cup: the socket opens through it.
 bool is_of_rim(const Body& fixed, const Sphere& head, const ImageCut& plane) {
   constexpr double least_cosine = 0.966;  // 15 degrees
@@ -218,6 +216,12 @@ bool is_of_rim(const Body& fixed, const Sphere& head, const ImageCut& plane) {
 }
 
 }  // namespace
+
+bool goes_on_behind(const TriMesh& bone, const ImageCut& plane, double face_area) {
+  constexpr double depth_in_radii = 0.4, most_wider = 2.5;
+  return section_area(bone, plane, depth_in_radii * std::sqrt(face_area / std::numbers::pi)) <=
+         most_wider * face_area;
+}
 
 const std::vector<ImageCut>& flat_ends(const Mesh& bone) {
   return mesh::findings_of(bone).get<KeptEnds>().ends.get(
@@ -249,7 +253,8 @@ std::vector<ImageCut> flat_ends_near_joint(const Joint& joint, BodyRole role) {
   for (const ImageCut& plane : flat_ends(body.mesh))
     if (!is_of_image(body, plane) &&
         face_in(body.mesh, plane).distance_mm <= farthest_flat_end * head->fit.sphere.radius &&
-        !(role == BodyRole::fixed && is_of_rim(body, head->fit.sphere, plane)))
+        !(role == BodyRole::fixed ? is_of_rim(body, head->fit.sphere, plane)
+                                  : is_terrace(body, head->fit.sphere, plane)))
       near.push_back(plane);
   return near;
 }

@@ -18,6 +18,10 @@ inline constexpr double farthest_flat_end = 2.7;
 /// an implant, and of a body of several meshes that end motions, whose planes may be meant.
 std::vector<ImageCut> flat_ends_near_joint(const Joint& joint, BodyRole body);
 
+/// Whether a bone is little wider behind a face in a plane than there, as where it was cut off: the uppermost step of a staircase of voxels, a
+/// millimetre high, has a section of many times its area as far behind it.
+bool goes_on_behind(const TriMesh& bone, const ImageCut& plane, double face_area);
+
 /// The distance from the joint centre to the triangles of the mesh that lie in a plane, mm, and the area of them all.
 struct FlatFace {
   double distance_mm, area_mm2;

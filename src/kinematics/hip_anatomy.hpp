@@ -34,6 +34,20 @@ bool fits_into(const Sphere& head, const SphericalPatch& socket);
 /// The socket around a head: that sphere; empty if there is none, or if the head does not fit into it.
 std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head);
 
+/// Whether a hip bone lies about a sphere as about a head: it is seen from the centre at 0.9 to 1.5 radii in a share of all directions.
+/// Linear in the hip bone.
+bool lies_about(const TriMesh& hip_bone, const Sphere& head);
+
+/// The socket of most support that a hip bone has, of a fifth of a sphere at least, wherever its head is.
+std::optional<SphericalPatch> full_socket(const TriMesh& hip_bone);
+
+/// The head of a femur: the fullest spherical part that lies in a socket of the hip bone, or if no socket is about any, what fits the one that
+/// the hip bone has. Of a hip bone without a socket, as of a coarse model, the fullest part near it. Empty if there is none: a condyle or a trochanter is
+/// no head.
+std::optional<SphericalPatch> head_in_socket(const TriMesh& hip_bone, const TriMesh& femur,
+                                             std::size_t resamples = 0,
+                                             std::optional<bool> femur_is_open = {});
+
 /// Anatomy of a femur whose head lies near the hip bone; empty if no head is found there. Some milliseconds per
 /// 10,000 triangles.
 std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& femur);

@@ -104,15 +104,21 @@ std::vector<Reading> ranked(const std::vector<Direction>& directions) {
   return all;
 }
 
-/// The best mean that any two axes of the meshes get as up and outwards, in use or not.
-double best_mean_of_all(const std::vector<Direction>& directions) {
+/// The best mean that any two axes of the meshes get as up and outwards, in use or not, and the two.
+struct BestOfAll {
+  double mean = -1;
+  Vec3 up = Vec3::Zero(), outwards = Vec3::Zero();
+};
+BestOfAll best_of_all(const std::vector<Direction>& directions) {
   std::vector<Vec3> axes;
   for (int i = 0; i < 3; ++i)
     for (const double sense : {1.0, -1.0}) axes.push_back(sense * Vec3::Unit(i));
-  double best = -1;
+  BestOfAll best;
   for (const Vec3& up : axes)
     for (const Vec3& outwards : axes)
-      if (up.dot(outwards) == 0) best = std::max(best, votes_for(up, outwards, directions).mean);
+      if (up.dot(outwards) == 0)
+        if (const double mean = votes_for(up, outwards, directions).mean; mean > best.mean)
+          best = {mean, up, outwards};
   return best;
 }
 
@@ -121,6 +127,13 @@ struct Evidence {
   double vote;
   std::string line;
 };
+
+/// "+y"
+std::string signed_axis(const Vec3& axis) {
+  Eigen::Index i = 0;
+  axis.cwiseAbs().maxCoeff(&i);
+  return {axis[i] < 0 ? '-' : '+', "xyz"[i]};
+}
 
 bool contradicted(const std::vector<Evidence>& all) {
   return std::any_of(all.begin(), all.end(), [](const Evidence& one) { return one.vote <= contradiction; });
@@ -299,7 +312,7 @@ HipAxes hip_axes(const TriMesh& hip_bone, const HipAnatomy& hip, const std::opti
   const Reading& next = *std::find_if(readings.begin(), readings.end(), [&](const Reading& reading) {
     return !same_front(reading.axes, best.axes);
   });
-  const double of_all = best_mean_of_all(directions);
+  const auto [of_all, up, outwards] = best_of_all(directions);
   const auto ends = end_votes(hip, best.axes);
   const auto sides = side_votes(hip_bone, hip, best.axes.superior());
 
@@ -315,7 +328,9 @@ HipAxes hip_axes(const TriMesh& hip_bone, const HipAnatomy& hip, const std::opti
   if (directions.size() < fewest_directions)
     answer.why_none = "neck and socket of the bones were not found";
   else if (best.votes.mean < std::max(least_mean, of_all - most_in_other_axes))
-    answer.why_none = "the bones agree with none of the axes in use";
+    answer.why_none = formatted(
+        "the bones agree with none of the axes in use: up is most nearly %s of the meshes, outwards %s",
+        signed_axis(up).c_str(), signed_axis(outwards).c_str());
   else if (best.votes.least < least_vote)
     answer.why_none = likeliest + ", and one direction of theirs contradicts it";
   else if (!supported(ends))

@@ -171,6 +171,25 @@ void check_cuts(const Body& body, Notes& notes) {
                                   cut_area_mm2(body)));
 }
 
+/// Largest edge of a voxel that resolves the joint space of a hip, 2 to 4 mm wide, mm for a head of the usual size.
+constexpr double thickest_slice_mm = 2.75;
+
+/// What the makers of a surface said of it, and whether its voxels resolve the joint space.
+void check_images(const Joint& joint, const std::optional<SphericalPatch>& head, Notes& notes) {
+  for (const Body* body : {&joint.fixed, &joint.mobile})
+    if (body->image) notes.add(body->image->notes);
+  if (!joint.is_hip() || !head) return;
+  Vec3 edges = Vec3::Zero();
+  for (const Body* body : {&joint.fixed, &joint.mobile})
+    if (body->image && body->image->voxel.colwise().norm().maxCoeff() > edges.maxCoeff())
+      edges = body->image->voxel.colwise().norm();
+  if (edges.maxCoeff() > by_head(thickest_slice_mm, head->fit.sphere))
+    notes.add(JointNoteCode::thick_slices,
+              formatted("voxels of %.3g x %.3g x %.3g mm do not resolve the joint space: limits near contact "
+                        "in the socket, and those by thin bone, may be off by many degrees",
+                        edges.x(), edges.y(), edges.z()));
+}
+
 /// A fragment that is moved is less than what it is cut from; of the mobile body either part may move.
 void check_parts_cut_off(const Joint& joint, Notes& notes) {
   if (!joint.posed) return;
@@ -306,16 +325,27 @@ void check_side_without_socket(const Joint& joint, Notes& notes) {
   if (auto note = kinematics::hip_side_note(joint)) notes.add({std::move(*note)});
 }
 
-/// Without a socket about the head the hip bone may be anywhere.
+/// Without a socket about the head the hip bone may be anywhere, and the sphere a condyle or a trochanter.
 void check_distance(const Joint& joint, const Sphere& head, Notes& notes) {
   double squared = HUGE_VAL;
   const auto& vertices = joint.fixed.mesh.vertices();
   for (std::size_t v = 0; v < vertices.size(); ++v)
     squared = std::min(squared, (vertices[v] - head.centre).squaredNorm());
   if (const double off = std::sqrt(squared); off > farthest_bone * head.radius)
-    notes.add(
+    return notes.add(
         JointNoteCode::far_centre,
         joint.fixed.name + formatted(" has nothing within %.0f mm of the head of ", off) + joint.mobile.name);
+  const TriMesh& fixed = kinematics::uncut_surface(joint.fixed);
+  if (kinematics::lies_about(fixed, head)) return;
+  const auto socket = kinematics::full_socket(fixed);
+  if (!socket) return;
+  const double apart = (socket->fit.sphere.centre - head.centre).norm();
+  if (apart > socket->fit.sphere.radius / 2)
+    notes.add(
+        JointNoteCode::no_head,
+        joint.mobile.name + " has no head in or near the socket of " + joint.fixed.name +
+            formatted(": the sphere found, of radius %.1f mm, is %.0f mm from a socket of radius %.1f mm",
+                      head.radius, apart, socket->fit.sphere.radius));
 }
 
 /// Whether there is a socket about the joint centre, of whatever size.
@@ -413,6 +443,12 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "doubled_triangles";
     case JointNoteCode::part_is_most:
       return "part_is_most";
+    case JointNoteCode::pieces_left_out:
+      return "pieces_left_out";
+    case JointNoteCode::interpolated_labels:
+      return "interpolated_labels";
+    case JointNoteCode::thick_slices:
+      return "thick_slices";
     case JointNoteCode::cut_by_view:
       return "cut_by_view";
     case JointNoteCode::flat_end:
@@ -465,13 +501,14 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
   // What is found on a surface is kept with its mesh, and takes the longest: bodies and socket at the same time.
   Notes of_fixed, of_mobile, notes;
   kinematics::SizeNotes sizes;
+  std::optional<SphericalPatch> head;
   const auto check_body = [&](const Body& body, Notes& own) {
     check_surface(body, own);
     check_cuts(body, own);
     if (joint.is_hip()) kinematics::flat_ends(body.mesh);
   };
   const auto check_sizes = [&] {
-    const auto head = joint.has_head() ? head_of(joint, placement) : std::nullopt;
+    head = joint.has_head() ? head_of(joint, placement) : std::nullopt;
     sizes =
         kinematics::size_notes(joint, head && head->coverage >= fullest_stray_sphere ? head : std::nullopt);
   };
@@ -481,6 +518,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
   notes.add(std::move(sizes.notes));
   notes.add(of_fixed.take());
   notes.add(of_mobile.take());
+  check_images(joint, head, notes);
   check_parts_cut_off(joint, notes);
   notes.add(check_ligaments(joint, placement));
   check_fit(joint, placement, notes);

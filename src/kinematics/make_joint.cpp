@@ -75,7 +75,7 @@ Mesh placed(const Pose& X_AW, const Pose& X_WB, double scale, const Body& body) 
 /// The image of a body in the frame A: its lengths are mm already.
 std::optional<BodyImage> placed_image(const Pose& X_AB, const std::optional<BodyImage>& image) {
   if (!image) return std::nullopt;
-  BodyImage placed{X_AB.linear() * image->voxel, {}};
+  BodyImage placed{X_AB.linear() * image->voxel, {}, image->notes};
   for (const ImageCut& cut : image->cuts) {
     const Vec3 normal = X_AB.linear() * cut.normal;
     placed.cuts.push_back({normal, cut.offset_mm + normal.dot(X_AB.translation())});
@@ -161,41 +161,28 @@ bool has_head(const JointDescription& description) noexcept {
   return description.kind == JointKind::ball || (description.kind == JointKind::free && head);
 }
 
-/// Whether enough of a surface lies about a sphere, as a head lies in its socket: a tenth of the sphere and something to spare.
-bool has_surface_about(const Mesh& mesh, const Sphere& sphere) {
-  constexpr double nearest = 0.6, farthest = 1.5;
-  constexpr std::size_t fewest = 12;
-  std::size_t count = 0;
-  const auto& vertices = mesh.vertices();
-  for (std::size_t v = 0; v < vertices.size() && count < fewest; ++v) {
-    const double squared = (vertices[v] - sphere.centre).squaredNorm() / (sphere.radius * sphere.radius);
-    count += squared > nearest * nearest && squared < farthest * farthest;
+/// The sphere of one body of a hip that belongs to the other: not another patch of it, nor the other of both sockets of a pelvis. Where the bodies
+/// show no hip, the fullest.
+SphericalPatch sphere_of_hip(const CentreFit& fit, const Mesh& fitted, const Mesh& other) {
+  constexpr std::size_t resamples = kinematics::usual_resamples;
+  const Mesh &of_fitted = mesh::outer_surface(fitted), &of_other = mesh::outer_surface(other);
+  if (fit.body == BodyRole::mobile) {
+    if (auto head = kinematics::head_in_socket(of_other, of_fitted, resamples, !of_fitted.is_closed()))
+      return *std::move(head);
+  } else if (const auto head = kinematics::head_in_socket(of_fitted, of_other)) {
+    const Sphere& sphere = head->fit.sphere;
+    const TriMesh near = kinematics::pieces_about(fitted, sphere);
+    if (auto socket = kinematics::find_sphere_where(
+            near, {.part = SphericalPart::socket, .resamples = resamples}, [&](const SphericalPatch& patch) {
+              return (patch.fit.sphere.centre - sphere.centre).norm() < sphere.radius / 2;
+            }))
+      return *std::move(socket);
+    const auto about = kinematics::sphere_around(near, sphere, resamples);
+    if (about && kinematics::fits_into(sphere, *about)) return *about;
   }
-  return count >= fewest;
-}
-
-/// The sphere that was found on one body of a hip, or that which belongs to the other body if the mesh holds several: both sockets of a
-/// pelvis, the heads of two legs.
-SphericalPatch of_this_hip(SphericalPatch found, const CentreFit& fit, const Mesh& fitted,
-                           const Mesh& other) {
-  if (fit.within || has_surface_about(other, found.fit.sphere)) return found;
-  try {
-    if (fit.body == BodyRole::fixed) {
-      const Sphere head = find_sphere(other).fit.sphere;
-      const TriMesh near = kinematics::pieces_about(fitted, head);
-      SphericalPatch socket = kinematics::find_sphere_on(
-          near, {.part = SphericalPart::socket, .resamples = kinematics::usual_resamples});
-      if (has_surface_about(other, socket.fit.sphere)) return socket;
-      const auto about = kinematics::sphere_around(near, head, kinematics::usual_resamples);
-      return about && kinematics::fits_into(head, *about) ? *about : found;
-    }
-    const BoundingBox bounds = mesh::bounds_of_surface(other);
-    const Sphere near{(bounds.low + bounds.high) / 2, bounds.diagonal() / 2};
-    SphericalPatch head = find_sphere(fitted, {.within = near, .resamples = kinematics::usual_resamples});
-    return has_surface_about(other, head.fit.sphere) ? head : found;
-  } catch (const MeshError&) {
-    return found;
-  }
+  return find_sphere(fitted,
+                     {.part = fit.body == BodyRole::fixed ? SphericalPart::socket : SphericalPart::head,
+                      .resamples = resamples});
 }
 
 Pose fitted_frame(const JointDescription& description, const CentreFit& fit, const Body& fixed,
@@ -216,10 +203,10 @@ Pose fitted_frame(const JointDescription& description, const CentreFit& fit, con
       search.part = fit.body == BodyRole::fixed ? SphericalPart::socket : SphericalPart::head;
       search.within = fit.within;
       search.resamples = kinematics::usual_resamples;
-      placement.sphere = find_sphere(mesh, search);
-      if (description.anatomy == Anatomy::hip)
-        placement.sphere = of_this_hip(std::move(*placement.sphere), fit, mesh,
-                                       placed(Pose::Identity(), X_WO, mm_per(description.units), other));
+      placement.sphere =
+          description.anatomy == Anatomy::hip && !fit.within
+              ? sphere_of_hip(fit, mesh, placed(Pose::Identity(), X_WO, mm_per(description.units), other))
+              : find_sphere(mesh, search);
     } else {
       placement.cylinder = find_cylinder(mesh, {.within = fit.within});
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -55,6 +56,10 @@ double root_of_area(const TriMesh& surface);
 
 /// find_sphere() and find_cylinder() on all of a surface, which is known to face the outside.
 SphericalPatch find_sphere_on(const TriMesh& surface, const SphereSearch& search = {});
+/// The best of the spherical parts that this accepts; empty if none is. `is_open`: whether the surface is, if that is known.
+std::optional<SphericalPatch> find_sphere_where(const TriMesh& surface, const SphereSearch& search,
+                                                const std::function<bool(const SphericalPatch&)>& fits,
+                                                std::optional<bool> is_open = {});
 CylinderFit find_cylinder_on(const TriMesh& surface, const CylinderSearch& search = {});
 
 /// The mesh's numbers of some of the points.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -329,6 +330,12 @@ TriMesh with_pieces(const Mesh& mesh, const std::vector<bool>& kept) {
   return part;
 }
 
+TriMesh piece_alone(const Mesh& mesh, std::size_t piece) {
+  TriMesh part = with_pieces(mesh, piece_with_cavities(pieces_of(mesh), piece));
+  drop_unreferenced_vertices(part);
+  return part;
+}
+
 std::optional<Index> inverted_piece(const Mesh& mesh) {
   for (const SurfacePiece& piece : pieces_of(mesh).all)
     if (piece.is_closed && !piece.is_inner() &&
@@ -368,19 +375,28 @@ TriMesh largest_piece(const Mesh& mesh) {
 }
 
 TriMesh piece_at(const Mesh& mesh, const Vec3& point) {
+  constexpr double as_near = 0.1;
   const mesh::SurfacePieces& pieces = mesh::pieces_of(mesh);
   if (pieces.all.size() < 2) return mesh;
-  std::size_t nearest = 0;
-  double least = HUGE_VAL;
+  std::vector<double> squared(pieces.all.size(), HUGE_VAL);
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
     const std::size_t piece = pieces.of_triangle[t];
     if (piece == mesh::SurfacePiece::no_piece || pieces.all[piece].is_inner()) continue;
     const Vec3 foot =
         mesh::nearest_on_triangle(point, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
-    if (const double squared = (foot - point).squaredNorm(); squared < least)
-      least = squared, nearest = piece;
+    squared[piece] = std::min(squared[piece], (foot - point).squaredNorm());
   }
-  return without_others(mesh, mesh::piece_with_cavities(pieces, nearest));
+  double area = 0;
+  for (const mesh::SurfacePiece& piece : pieces.all) area += piece.area;
+  const double farthest =
+      std::sqrt(*std::min_element(squared.begin(), squared.end())) + as_near * std::sqrt(area);
+  std::vector<bool> kept(squared.size());
+  for (std::size_t p = 0; p < squared.size(); ++p) {
+    if (!(std::sqrt(squared[p]) <= farthest)) continue;
+    const std::vector<bool> with_cavities = mesh::piece_with_cavities(pieces, p);
+    std::transform(kept.begin(), kept.end(), with_cavities.begin(), kept.begin(), std::logical_or<>());
+  }
+  return without_others(mesh, kept);
 }
 
 }  // namespace condyle

@@ -69,5 +69,7 @@ const Mesh& outer_surface(const Mesh& mesh);
 
 /// The triangles of some pieces, with the numbers of the mesh's vertices.
 TriMesh with_pieces(const Mesh& mesh, const std::vector<bool>& kept);
+/// One piece and its cavities, with their vertices only.
+TriMesh piece_alone(const Mesh& mesh, std::size_t piece);
 
 }  // namespace condyle::mesh

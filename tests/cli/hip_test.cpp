@@ -123,13 +123,17 @@ TEST_F(Patients, HaveOneMeshOfBothHipBones) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     return mesh;
   };
-  TriMesh pelvis = io::read_mesh(scan->path() / "hip_bone.ply").mesh;
-  const auto first = static_cast<Index>(pelvis.vertices.size());
-  const TriMesh left = mirrored("hip_bone.ply");
-  for (std::size_t v = 0; v < left.vertices.size(); ++v) pelvis.vertices.push_back(left.vertices[v]);
-  for (const Triangle& t : left.triangles)
-    pelvis.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  io::write_mesh(scan->path() / "pelvis.ply", pelvis);
+  const auto write_both = [&](const char* file, const char* of) {
+    TriMesh both = io::read_mesh(scan->path() / of).mesh;
+    const auto first = static_cast<Index>(both.vertices.size());
+    const TriMesh left = mirrored(of);
+    for (std::size_t v = 0; v < left.vertices.size(); ++v) both.vertices.push_back(left.vertices[v]);
+    for (const Triangle& t : left.triangles)
+      both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    io::write_mesh(scan->path() / file, both);
+  };
+  write_both("pelvis.ply", "hip_bone.ply");
+  write_both("femora.ply", "femur.ply");
   io::write_mesh(scan->path() / "femur_left.ply", mirrored("femur.ply"));
   const Ran ran = run("hip pelvis.ply femur_left.ply femur.ply --samples 0 --out one_mesh");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
@@ -140,6 +144,13 @@ TEST_F(Patients, HaveOneMeshOfBothHipBones) {
   for (std::size_t i = 0; i < alone.size(); ++i)
     EXPECT_NEAR(of_half[i]["limit_deg"].get<double>(), alone[i]["limit_deg"].get<double>(), 1.5)
         << alone[i]["name"] << ": the fitted centre is not that of the sample";
+  // Both femora in one mesh are each its own side's.
+  ASSERT_EQ(run("hip pelvis.ply femora.ply --samples 0 --out one_file").exit_code, 0);
+  for (const std::string side : {"left", "right"})
+    EXPECT_EQ(json("one_file/" + side + "/limits/rom.json")["motions"],
+              json("one_mesh/" + side + "/limits/rom.json")["motions"]);
+  ASSERT_EQ(run("hip pelvis.ply femora.ply --side left --samples 0 --out one_side").exit_code, 0);
+  EXPECT_TRUE(is_there("one_side/left/hip.html") && !is_there("one_side/right"));
 }
 
 /// What is wrong with one hip keeps neither the other nor what is known of it from being answered.

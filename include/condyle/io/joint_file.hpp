@@ -199,7 +199,12 @@ struct ProposalRequest {
   std::optional<Anatomy> anatomy = {};         ///< which joint it is; default: a hip
   PolygonRule polygons = PolygonRule::refuse;  ///< of both meshes; the file says so too
   Person person = {};  ///< stands in the file; of another species than human no unit is inferred from sizes
+  std::optional<std::size_t> mobile_piece = {};  ///< one of femora_in(); default: all of the mesh
 };
+
+/// The connected pieces of the mobile mesh that are femora, as large as each other and each with its head in a socket of the fixed one; none if there
+/// are not two. Throws FileError.
+[[nodiscard]] std::vector<std::size_t> femora_in(const ProposalRequest& request);
 
 /// A joint file, complete but for what could not be inferred.
 struct JointProposal {

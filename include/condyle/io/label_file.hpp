@@ -42,6 +42,7 @@ enum class LabelNoteCode {
   touching,            ///< Two bones touch or overlap.
   label_tables,        ///< A number was asked for: the names that published tables and the file give it.
   axes_not_used,       ///< Axes were stated, and the file has its own, which count.
+  interpolated,        ///< Labels were interpolated and rounded: a bone lies in a shell of others.
 };
 
 /// As in files: "two_affines".
@@ -101,6 +102,10 @@ struct LabelFileOptions {
 /// must exist.
 [[nodiscard]] VoxelMask mask_of(const LabelMap& map, std::size_t layer, std::uint32_t label);
 
+struct ChosenLabel;
+/// The voxels of all labels of a bone.
+[[nodiscard]] VoxelMask mask_of(const LabelMap& map, const ChosenLabel& bone);
+
 /// Extent of a label in one layer.
 struct LabelSummary {
   std::size_t layer = 0;
@@ -127,13 +132,14 @@ enum class LabelTask { total, total_v1, total_mr };
 struct ChosenLabel {
   std::size_t layer = 0;
   std::uint32_t label = 0;
-  std::string name;              ///< that of the file, else of the table, else empty
-  std::vector<LabelNote> notes;  ///< a bare number: its names in the tables
+  std::string name;                    ///< that of the file, else of the table, else empty
+  std::vector<LabelNote> notes;        ///< a bare number: its names in the tables
+  std::vector<ChosenLabel> also = {};  ///< other labels of the same bone
 };
 
 /// The label that a user means: a number ("75"); a layer and a number ("1:3") where several layers have that value; or a name
 /// or id of a segment, or a name of the task's table: first exactly, then in any case with blanks as '_'. A name is never
-/// guessed by likeness.
+/// guessed by likeness. Several with commas between them ("21,22") are one bone.
 ///
 /// UsageError for a name that neither the file nor the table has, which lists the names there are; for one that stands for
 /// several; for a number that no voxel has; and if the file and the table call one value differently. A segment without voxels

@@ -246,6 +246,15 @@ std::optional<LabelTask> label_task_of(std::string_view word) noexcept {
 }
 
 ChosenLabel choose_label(const LabelMap& map, std::string_view text, std::optional<LabelTask> task) {
+  if (const auto comma = text.find(','); comma != text.npos && !named_segment(map, text)) {
+    ChosenLabel first = choose_label(map, text.substr(0, comma), task),
+                rest = choose_label(map, text.substr(comma + 1), task);
+    if (!first.name.empty() && !rest.name.empty()) first.name += "_" + rest.name;
+    first.notes.insert(first.notes.end(), rest.notes.begin(), rest.notes.end());
+    first.also = std::exchange(rest.also, {});
+    first.also.push_back(std::move(rest));
+    return first;
+  }
   const auto number = numbered(text);
   const LabelSegment* segment = named_segment(map, text);
   if (number) {

@@ -84,10 +84,11 @@ bool is_of_both_sides(const LabelMap& map, const std::string& label, std::option
   } else {
     chosen = choose_label(map, label, task);
   }
-  VoxelMask mask = mask_of(map, chosen.layer, chosen.label);
+  VoxelMask mask = mask_of(map, chosen);
   mesh::VoxelBox box{mask.size, std::move(mask.inside)};
-  const std::vector<std::int64_t> pieces = mesh::keep_pieces(box, true);
-  return pieces.size() > 1 && mesh::is_large_piece(pieces[1], pieces[0]);
+  const mesh::KeptBone kept = mesh::keep_bone(box, map.grid.X_WI, std::nullopt);
+  return std::any_of(kept.left_out.begin(), kept.left_out.end(),
+                     [](const mesh::LeftOutPiece& piece) { return piece.is_other_side; });
 }
 
 /// "; --task total would name 76 femur_right, 78 hip_right": of the tables of TotalSegmentator those by which the map has a hip.

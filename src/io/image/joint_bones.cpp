@@ -23,14 +23,28 @@ bool same_grid(const VoxelGrid& a, const VoxelGrid& b) {
 }
 
 VoxelMask voxels_of(const ImagedBone& imaged) {
-  return mask_of(imaged.map, imaged.bone.label.layer, imaged.bone.label.label);
+  return mask_of(imaged.map, imaged.bone.label);
+}
+
+/// Each label of a bone.
+std::vector<ChosenLabel> labels_of(const ChosenLabel& bone) {
+  std::vector<ChosenLabel> all{bone};
+  all.insert(all.end(), bone.also.begin(), bone.also.end());
+  return all;
 }
 
 }  // namespace
 
+std::string label_numbers(const ChosenLabel& bone, std::string_view between) {
+  std::string text;
+  for (const ChosenLabel& each : labels_of(bone))
+    text += fmt::format("{}{}", text.empty() ? "" : between, each.label);
+  return text;
+}
+
 std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image_name) {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("label {} of {}, {} voxels of {} mm", bone.label.label,
+  lines.push_back(fmt::format("label {} of {}, {} voxels of {} mm", label_numbers(bone.label, ", "),
                               core::one_line(image_name, 200), bone.voxels, spacing_text(bone.surface)));
   lines.push_back(
       fmt::format("surface off by about {:.2g} mm at most by the grid; by the segmentation, unknown",
@@ -42,9 +56,11 @@ std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image
 }
 
 void check_are_two(const ImagedBone& fixed, const ImagedBone& mobile) {
-  const ChosenLabel &of_fixed = fixed.bone.label, &of_mobile = mobile.bone.label;
-  if (&fixed.map == &mobile.map && of_fixed.layer == of_mobile.layer && of_fixed.label == of_mobile.label)
-    throw UsageError(fmt::format("{}: label {} is given for both bodies", fixed.file, of_fixed.label));
+  if (&fixed.map != &mobile.map) return;
+  for (const ChosenLabel& a : labels_of(fixed.bone.label))
+    for (const ChosenLabel& b : labels_of(mobile.bone.label))
+      if (a.layer == b.layer && a.label == b.label)
+        throw UsageError(fmt::format("{}: label {} is given for both bodies", fixed.file, a.label));
 }
 
 std::optional<Stated<Side>> stated_side(const std::optional<Side>& given, const LabelBone& fixed,

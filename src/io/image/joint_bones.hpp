@@ -33,6 +33,9 @@ struct RequestedBone {
 bool take_pieces_of_joint(RequestedBone& fixed, RequestedBone& mobile, const std::optional<Side>& side,
                           const Control& control);
 
+/// "21, 22": the labels of a bone.
+std::string label_numbers(const ChosenLabel& bone, std::string_view between);
+
 /// Where the surface of a bone comes from, one line each: its label and voxels, what the grid leaves open.
 std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image_name);
 

@@ -8,8 +8,10 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
+#include "condyle/joint_checks.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/image/joint_bones.hpp"
+#include "kinematics/flat_ends.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/label_surface/voxel_pieces.hpp"
 
@@ -53,6 +55,11 @@ ChosenLabel chosen_label(const LabelMap& map, std::string_view file, const Label
   }
 }
 
+/// The number that voxels without a label have in layers; one that none has if there are no such voxels.
+std::uint16_t nothing(const LabelMap& map) {
+  return map.labels.front() == 0 ? std::uint16_t{0} : std::uint16_t{65535};
+}
+
 void check_size(const VoxelMask& mask, std::int64_t voxels, std::string_view file, std::string_view name) {
   if (voxels == 0) throw MeshError(fmt::format("{}: {} has no voxel", file, name));
   double longest = 0;
@@ -64,8 +71,8 @@ void check_size(const VoxelMask& mask, std::int64_t voxels, std::string_view fil
                                 voxels, longest));
 }
 
-/// `kept_for`: why this piece is kept, "the largest".
-void note_pieces(const LabelBone& bone, std::string_view kept_for, std::vector<LabelNote>& notes) {
+/// `kept_for`: why this piece is kept, "the largest". The joint of the bone says what is left out, but for the bone of the other side.
+void note_pieces(LabelBone& bone, std::string_view kept_for, bool chooses, double other_side_mm3) {
   double kept = 0, dropped = 0;
   std::size_t kept_pieces = 0, dropped_pieces = 0;
   for (const LabelPiece& piece : bone.surface.pieces) {
@@ -73,13 +80,29 @@ void note_pieces(const LabelBone& bone, std::string_view kept_for, std::vector<L
     (piece.kept ? kept : dropped) += piece.volume;
     ++(piece.kept ? kept_pieces : dropped_pieces);
   }
+  if (kept_pieces + dropped_pieces < 2) return;
+  std::string text = fmt::format("{} is in {} pieces", bone.name, kept_pieces + dropped_pieces);
   if (dropped_pieces > 0)
-    notes.push_back({LabelNoteCode::pieces,
-                     fmt::format("{} is in {} pieces: {} is kept, {:.0f} mm3, and {:.0f} mm3 are left out",
-                                 bone.name, kept_pieces + dropped_pieces, kept_for, kept, dropped)});
-  else if (kept_pieces > 1)
-    notes.push_back(
-        {LabelNoteCode::pieces, fmt::format("{} is in {} pieces, all of them kept", bone.name, kept_pieces)});
+    text += fmt::format(": {} is kept, {:.0f} mm3, and {:.0f} mm3 are left out", kept_for, kept, dropped);
+  if (kept_pieces > 1)
+    text += chooses ? fmt::format("{} {} pieces that face each other are one bone",
+                                  dropped_pieces > 0 ? ";" : ":", kept_pieces)
+                    : ", all of them kept";
+  if (dropped > other_side_mm3 + least_noted_piece * kept)
+    bone.image.notes.push_back({JointNoteCode::pieces_left_out, text});
+  bone.notes.push_back({LabelNoteCode::pieces, std::move(text)});
+}
+
+void note_shells(LabelBone& bone, double share) {
+  constexpr double largest_share =
+      0.25;  // other bones and organs are thicker than a voxel: maps as they are segmented have 0.03
+  if (share <= largest_share) return;
+  std::string text = fmt::format(
+      "{:.0f} % of the border of {} is against other labels that are one voxel thick, as where labels were "
+      "interpolated and rounded: the bone lacks its outer voxels; resample labels to the nearest neighbour",
+      100 * share, bone.name);
+  bone.image.notes.push_back({JointNoteCode::interpolated_labels, text});
+  bone.notes.push_back({LabelNoteCode::interpolated, std::move(text)});
 }
 
 void note_cavities(const LabelBone& bone, bool kept, std::vector<LabelNote>& notes) {
@@ -127,31 +150,40 @@ PieceWanted on_side(Side side, const LabelMap& map) {
           fmt::format("the one on the {}", name_of(side))};
 }
 
-/// Takes large pieces out of the mask but for that one; returns their voxels.
-std::vector<std::int64_t> keep_piece(const PieceWanted& wanted, VoxelMask& mask) {
+/// Takes what is not of the bone out of the mask.
+mesh::KeptBone keep_bone(const PieceWanted* wanted, VoxelMask& mask) {
   mesh::VoxelBox box{mask.size, std::move(mask.inside)};
   const std::array<std::int64_t, 3>& first = mask.first;
   const Eigen::Affine3d X_WB =
       mask.image.X_WI * Eigen::Translation3d(static_cast<double>(first[0]), static_cast<double>(first[1]),
                                              static_cast<double>(first[2]));
-  auto voxels = mesh::keep_large_piece_near(box, X_WB, wanted.near_W);
+  mesh::KeptBone kept = mesh::keep_bone(box, X_WB, wanted ? std::optional(wanted->near_W) : std::nullopt);
   mask.inside = std::move(box.inside);
-  return voxels;
+  return kept;
 }
 
 /// Whether one of several large pieces of a label is the bone, as of a whole pelvis.
 bool is_in_large_pieces(const LabelBone& bone) {
   const std::vector<LabelPiece>& pieces = bone.surface.pieces;
-  return pieces.size() > 1 && !pieces[1].kept && mesh::is_large_piece(pieces[1].voxels, pieces[0].voxels);
+  return std::any_of(pieces.begin(), pieces.end(), [&](const LabelPiece& piece) {
+    return !piece.kept && mesh::is_large_piece(piece.voxels, pieces[0].voxels);
+  });
 }
 
 /// Among the pieces of a surface, most voxels first.
-void add_left_out(const std::vector<std::int64_t>& left_out, double voxel_mm3,
+void add_left_out(const std::vector<mesh::LeftOutPiece>& left_out, double voxel_mm3,
                   std::vector<LabelPiece>& pieces) {
-  for (const std::int64_t voxels : left_out)
+  for (const auto& [voxels, is_other_side] : left_out)
     pieces.push_back({voxels, static_cast<double>(voxels) * voxel_mm3, false});
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const LabelPiece& a, const LabelPiece& b) { return a.voxels > b.voxels; });
+}
+
+/// A side of the image that the bone just reaches, as where the image was cropped to it, does not cut it.
+void drop_flush_sides(LabelSurface& surface) {
+  std::erase_if(surface.caps, [&](const CapPlane& cap) {
+    return !kinematics::goes_on_behind(surface.mesh, {cap.normal, cap.offset}, cap.area);
+  });
 }
 
 std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
@@ -159,23 +191,32 @@ std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, con
   LabelBone bone{.name = {}, .label = chosen_label(map, file, request), .surface = {}, .image = {}};
   bone.name = bone.label.name;
   if (bone.name.empty())
-    bone.name = request.label.empty() ? name_of_mask(file) : fmt::format("label_{}", bone.label.label);
-  VoxelMask mask = mask_of(map, bone.label.layer, bone.label.label);
+    bone.name = request.label.empty() ? name_of_mask(file) : "label_" + label_numbers(bone.label, "_");
+  VoxelMask mask = mask_of(map, bone.label);
   bone.voxels = std::count(mask.inside.begin(), mask.inside.end(), std::uint8_t{1});
   check_size(mask, bone.voxels, file, bone.name);
-  std::vector<std::int64_t> left_out;
-  if (wanted) left_out = keep_piece(*wanted, mask);
+  const double in_shells = mesh::share_in_shells(map.layers[bone.label.layer], nothing(map), mask);
+  const bool chooses = !request.surface.all_pieces;
+  const mesh::KeptBone kept = chooses ? keep_bone(wanted, mask) : mesh::KeptBone{};
+  LabelSurfaceOptions options = request.surface;
+  options.all_pieces |= kept.pieces > 1;
   try {
-    auto surface = surface_of(mask, request.surface, control);
+    auto surface = surface_of(mask, options, control);
     if (!surface) return std::nullopt;
     bone.surface = std::move(*surface);
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}: {}", file, bone.name, error.what()));
   }
-  add_left_out(left_out, std::abs(mask.image.X_WI.linear().determinant()), bone.surface.pieces);
+  drop_flush_sides(bone.surface);
+  const double voxel_mm3 = std::abs(mask.image.X_WI.linear().determinant());
+  add_left_out(kept.left_out, voxel_mm3, bone.surface.pieces);
   bone.image = image_of(map.grid, bone.surface);
   bone.notes = bone.label.notes;
-  note_pieces(bone, left_out.empty() ? "the largest" : wanted->words, bone.notes);
+  double other_side_mm3 = 0;
+  for (const mesh::LeftOutPiece& piece : kept.left_out)
+    if (piece.is_other_side) other_side_mm3 += static_cast<double>(piece.voxels) * voxel_mm3;
+  note_pieces(bone, !wanted ? "the largest" : wanted->words, chooses, other_side_mm3);
+  note_shells(bone, in_shells);
   note_cavities(bone, request.surface.keep_cavities, bone.notes);
   note_cuts(bone, bone.notes);
   note_simplification(bone, bone.notes);
@@ -202,8 +243,13 @@ bool take_pieces_of_joint(RequestedBone& fixed, RequestedBone& mobile, const std
     if (bone) of.bone = *std::move(bone);
     return bone.has_value();
   };
+  // Of a bone in fragments the one beside the other bone is meant, whichever side it is on.
+  const std::vector<JointNote>& notes = mobile.bone.image.notes;
+  const bool is_in_fragments = std::any_of(notes.begin(), notes.end(), [](const JointNote& note) {
+    return note.code == JointNoteCode::pieces_left_out;
+  });
   if (is_in_large_pieces(mobile.bone) &&
-      !take(mobile, side ? on_side(*side, mobile.map) : beside(fixed.bone)))
+      !take(mobile, side && !is_in_fragments ? on_side(*side, mobile.map) : beside(fixed.bone)))
     return false;
   return !is_in_large_pieces(fixed.bone) || take(fixed, beside(mobile.bone));
 }

@@ -43,30 +43,45 @@ void for_each_run(const std::vector<std::uint16_t>& layer, const Voxel& size, Ru
 
 }  // namespace
 
-VoxelMask mask_of(const LabelMap& map, std::size_t layer, std::uint32_t label) {
-  assert(layer < map.layers.size());
+VoxelMask mask_of(const LabelMap& map, const ChosenLabel& bone) {
+  const auto for_each_label = [&](const auto& visit) {
+    const auto visit_label = [&](const ChosenLabel& each) {
+      assert(each.layer < map.layers.size());
+      const auto found = std::lower_bound(map.labels.begin(), map.labels.end(), each.label);
+      if (found != map.labels.end() && *found == each.label)
+        visit(map.layers[each.layer], static_cast<std::uint16_t>(std::distance(map.labels.begin(), found)));
+    };
+    visit_label(bone);
+    std::for_each(bone.also.begin(), bone.also.end(), visit_label);
+  };
   VoxelMask mask{map.grid, {}, {}, {}};
-  const auto found = std::lower_bound(map.labels.begin(), map.labels.end(), label);
-  if (found == map.labels.end() || *found != label) return mask;
-  const auto wanted = static_cast<std::uint16_t>(std::distance(map.labels.begin(), found));
-
   Extent extent;
-  for_each_run(map.layers[layer], map.grid.size, [&](auto from, auto to, auto j, auto k, auto index) {
-    if (index == wanted) extent.add_run(from, to, j, k);
+  for_each_label([&](const std::vector<std::uint16_t>& layer, std::uint16_t wanted) {
+    for_each_run(layer, map.grid.size, [&](auto from, auto to, auto j, auto k, auto index) {
+      if (index == wanted) extent.add_run(from, to, j, k);
+    });
   });
   if (extent.voxels == 0) return mask;
   mask.first = extent.least;
   for (std::size_t axis = 0; axis < 3; ++axis)
     mask.size[axis] = extent.largest[axis] - extent.least[axis] + 1;
-  mask.inside.reserve(static_cast<std::size_t>(mask.size[0] * mask.size[1] * mask.size[2]));
-  for (std::int64_t k = extent.least[2]; k <= extent.largest[2]; ++k)
-    for (std::int64_t j = extent.least[1]; j <= extent.largest[1]; ++j) {
-      const std::uint16_t* row =
-          map.layers[layer].data() + map.grid.size[0] * (j + map.grid.size[1] * k) + extent.least[0];
-      std::transform(row, row + mask.size[0], std::back_inserter(mask.inside),
-                     [&](std::uint16_t index) { return static_cast<std::uint8_t>(index == wanted); });
-    }
+  mask.inside.resize(static_cast<std::size_t>(mask.size[0] * mask.size[1] * mask.size[2]));
+  for_each_label([&](const std::vector<std::uint16_t>& layer, std::uint16_t wanted) {
+    auto to = mask.inside.begin();
+    for (std::int64_t k = extent.least[2]; k <= extent.largest[2]; ++k)
+      for (std::int64_t j = extent.least[1]; j <= extent.largest[1]; ++j) {
+        const std::uint16_t* row =
+            layer.data() + map.grid.size[0] * (j + map.grid.size[1] * k) + extent.least[0];
+        to = std::transform(row, row + mask.size[0], to, to, [&](std::uint16_t index, std::uint8_t inside) {
+          return static_cast<std::uint8_t>(inside | (index == wanted ? 1 : 0));
+        });
+      }
+  });
   return mask;
+}
+
+VoxelMask mask_of(const LabelMap& map, std::size_t layer, std::uint32_t label) {
+  return mask_of(map, ChosenLabel{layer, label, {}, {}});
 }
 
 std::vector<LabelSummary> summaries_of(const LabelMap& map) {

@@ -64,11 +64,11 @@ LabelMap read_labels(std::string_view bytes, LabelFormat format, std::string_vie
 }
 
 std::string_view name_of(LabelNoteCode code) noexcept {
-  constexpr std::string_view names[] = {"two_affines", "two_voxel_sizes",    "unknown_units",
-                                        "more_bytes",  "empty_segmentation", "pieces",
-                                        "cavities",    "cut_by_view",        "simplified_away",
-                                        "touching",    "label_tables",       "axes_not_used"};
-  static_assert(std::size(names) == static_cast<std::size_t>(LabelNoteCode::axes_not_used) + 1);
+  constexpr std::string_view names[] = {
+      "two_affines",  "two_voxel_sizes", "unknown_units", "more_bytes",      "empty_segmentation",
+      "pieces",       "cavities",        "cut_by_view",   "simplified_away", "touching",
+      "label_tables", "axes_not_used",   "interpolated"};
+  static_assert(std::size(names) == static_cast<std::size_t>(LabelNoteCode::interpolated) + 1);
   return names[static_cast<std::size_t>(code)];
 }
 

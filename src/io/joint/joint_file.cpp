@@ -9,6 +9,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/joint_checks.hpp"
 #include "core/one_line.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
@@ -184,7 +185,7 @@ std::vector<MeshEntry> mesh_entries(TomlTable& body, std::string_view key, std::
   return entries;
 }
 
-/// [fixed.image]: the edges of a voxel, and the planes of the faces that close the bone where its image ends.
+/// [fixed.image]: the edges of a voxel, the planes of the faces that close the bone where its image ends, and notes on its making.
 std::optional<BodyImage> body_image(TomlTable& body, const Lengths& lengths) {
   std::optional<TomlTable> table = body.table("image");
   if (!table) return std::nullopt;
@@ -198,6 +199,12 @@ std::optional<BodyImage> body_image(TomlTable& body, const Lengths& lengths) {
     const double offset = cut.required("offset", cut.number("offset"));
     image.cuts.push_back({normal.normalized(), lengths.in_mm({offset, 0, 0}).x()});
     cut.finish();
+  }
+  for (TomlTable& note : table->tables("note")) {
+    constexpr JointNoteCode codes[] = {JointNoteCode::pieces_left_out, JointNoteCode::interpolated_labels};
+    const JointNoteCode code = codes[note.required_word("code", {name_of(codes[0]), name_of(codes[1])})];
+    image.notes.push_back({code, core::one_line(note.required("text", note.text("text")), 1000)});
+    note.finish();
   }
   table->finish();
   return image;

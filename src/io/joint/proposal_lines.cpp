@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "condyle/joint_checks.hpp"
 #include "condyle/version.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/path_from.hpp"
@@ -80,6 +81,11 @@ void add_image(ProposalLines& lines, std::string_view role, const std::optional<
     lines.add(fmt::format("[[{}.image.cut]]  # a flat face that closes the bone where the image ends", role));
     lines.add("normal = " + exact(cut.normal));
     lines.add(fmt::format("offset = {}", cut.offset_mm));
+  }
+  for (const JointNote& note : image->notes) {
+    lines.add(fmt::format("[[{}.image.note]]  # repeated in every answer", role));
+    lines.add(fmt::format("code = \"{}\"", name_of(note.code)));
+    lines.add("text = " + toml_text(note.text));
   }
 }
 

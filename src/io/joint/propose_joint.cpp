@@ -20,6 +20,7 @@
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "mesh/enclosed_volume.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle::io {
 namespace {
@@ -63,7 +64,7 @@ void add_axes(ProposalLines& lines, const kinematics::HipAnatomy& hip,
 void add_kind(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
   if (!hip)
     return lines.missing("kind", "\"ball\" or \"hinge\"",
-                         "no head was found on the mobile body near the fixed one");
+                         "no head was found on the mobile body in or near a socket of the fixed one");
   lines.key("kind", "\"ball\"",
             fmt::format("inferred from a head of radius {:.2f} mm, {:.0f} % of a sphere{}",
                         hip->head.fit.sphere.radius, 100 * hip->head.coverage,
@@ -72,7 +73,7 @@ void add_kind(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>&
                             : std::string(", without a spherical socket round it")));
 }
 
-/// The piece in which the head lies, if the mesh has another large one beside it, as a whole pelvis has; else empty.
+/// The pieces about the head, if the mesh has another bone beside them, as a whole pelvis has and both femora; else empty. A fragment is no bone.
 std::optional<TriMesh> half_at(const TriMesh& whole, const Sphere& head) {
   TriMesh half = piece_at(Mesh(whole), head.centre);
   const auto area_of = [](const TriMesh& mesh) {
@@ -84,7 +85,7 @@ std::optional<TriMesh> half_at(const TriMesh& whole, const Sphere& head) {
     return area;
   };
   const double at_joint = area_of(half);
-  if (5 * (area_of(whole) - at_joint) < at_joint) return std::nullopt;
+  if (2 * (area_of(whole) - at_joint) < at_joint) return std::nullopt;
   const BoundingBox all = mesh::bounds_of_vertices(whole), at_head = mesh::bounds_of_vertices(half);
   const Vec3 beyond = (at_head.low - all.low).cwiseMax(all.high - at_head.high);
   if (!(beyond.maxCoeff() > head.radius)) return std::nullopt;  // walls within
@@ -136,12 +137,13 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   fixed.mesh = surface_in_mm(fixed, units);
   mobile.mesh = surface_in_mm(mobile, units);
   auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
-  if (hip && !fixed.image)
-    if (auto half = half_at(fixed.mesh, hip->head.fit.sphere)) {
-      fixed.mesh = *std::move(half);
-      fixed.is_piece_at_joint = true;
-      hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
-    }
+  for (ProposedBody* body : {&fixed, &mobile})
+    if (hip && !body->image)
+      if (auto half = half_at(body->mesh, hip->head.fit.sphere)) {
+        body->mesh = *std::move(half);
+        body->is_piece_at_joint = true;
+        hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
+      }
   if (!hip && are_exchanged(fixed.mesh, mobile.mesh, facts))
     lines.missing("kind", "\"ball\" or \"hinge\"", exchanged);
   else
@@ -176,7 +178,9 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   add_body(lines, "mobile", mobile, facts.joint_file);
 
   lines.add("\n[frame]");
-  add_centre(lines, hip, fixed.is_piece_at_joint ? std::optional(1 / mm_per(units)) : std::nullopt);
+  add_centre(
+      lines, hip,
+      fixed.is_piece_at_joint || mobile.is_piece_at_joint ? std::optional(1 / mm_per(units)) : std::nullopt);
   if (facts.axes_by) {
     lines.key("axes", "\"LPS\"", *facts.axes_by);
   } else if (axes.agreeing.size() == 1) {
@@ -190,6 +194,23 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   return std::move(lines).proposal(stated);
 }
 
+std::vector<std::size_t> femora_in(const ProposalRequest& request) {
+  constexpr double as_large = 3;
+  const Mesh femora(read_mesh(request.mobile, request.polygons).mesh);
+  const mesh::SurfacePieces& pieces = mesh::pieces_of(femora);
+  std::vector<std::size_t> found;
+  double largest = 0;
+  for (const mesh::SurfacePiece& piece : pieces.all) largest = std::max(largest, piece.area);
+  for (std::size_t p = 0; p < pieces.all.size(); ++p)
+    if (!pieces.all[p].is_inner() && as_large * pieces.all[p].area >= largest) found.push_back(p);
+  if (found.size() < 2) return {};
+  const TriMesh hip_bones = read_mesh(request.fixed, request.polygons).mesh;
+  std::erase_if(found, [&](std::size_t p) {
+    return !kinematics::hip_anatomy(hip_bones, mesh::piece_alone(femora, p));
+  });
+  return found.size() < 2 ? std::vector<std::size_t>{} : found;
+}
+
 JointProposal propose_joint(const ProposalRequest& request) {
   const auto body = [&](const std::filesystem::path& file) {
     return ProposedBody{.mesh = read_mesh(file, request.polygons).mesh,
@@ -201,19 +222,19 @@ JointProposal propose_joint(const ProposalRequest& request) {
   if (request.side) facts.side = {*request.side, "given"};
   if (request.units) facts.units = {*request.units, "given"};
   facts.anatomy = request.anatomy;
-<<<<<<< HEAD
+  facts.person = request.person;
   ProposedBody fixed = body(request.fixed), mobile = body(request.mobile);
   if (fixed.mesh.vertices == mobile.mesh.vertices && fixed.mesh.triangles == mobile.mesh.triangles)
     throw UsageError(
         fmt::format("{} and {} are the same mesh: two bones are needed, the one that stays first",
                     request.fixed.string(), request.mobile.string()));
-  return io::proposal_of(std::move(fixed), std::move(mobile), facts);
-=======
-  facts.person = request.person;
-  JointProposal proposal = io::proposal_of(body(request.fixed), body(request.mobile), facts);
+  if (request.mobile_piece) {
+    mobile.mesh = mesh::piece_alone(Mesh(std::move(mobile.mesh)), *request.mobile_piece);
+    mobile.is_piece_at_joint = true;
+  }
+  JointProposal proposal = io::proposal_of(std::move(fixed), std::move(mobile), facts);
   proposal.toml += person_text(request.person);
   return proposal;
->>>>>>> 89333086 (Take bones of another species than human as they are, and say the unit of meshes that are not in millimetres)
 }
 
 }  // namespace condyle::io

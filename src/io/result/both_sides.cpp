@@ -57,7 +57,7 @@ std::string side_words(const RangeAnswer& answer, std::size_t i) {
 
 /// Lines of provenance, each with whose it is.
 std::string comments_of(const char* side, const RomResult& result) {
-  std::string comments = provenance_comments(result.provenance);
+  std::string comments = provenance_comments(result.provenance, result.notes);
   for (std::size_t at = 0; at < comments.size(); at = comments.find('\n', at) + 1)
     if (comments[at] == '#') comments.replace(at, 1, std::string("# ") + side);
   return comments;

@@ -187,7 +187,7 @@ std::string measure_json(const MeasureResult& result) {
 }
 
 std::string measures_csv(const MeasureResult& result) {
-  std::string text = io::provenance_comments(result.provenance);
+  std::string text = io::provenance_comments(result.provenance, result.notes);
   for (const std::string& sentence : result.answer.measures.left_out)
     text += fmt::format("# left_out: {}\n", sentence);
   text +=

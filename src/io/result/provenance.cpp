@@ -262,4 +262,12 @@ std::string provenance_comments(const Provenance* from) {
   return text;
 }
 
+std::string provenance_comments(const Provenance* from, std::span<const JointNote> notes) {
+  std::string text = provenance_comments(from);
+  if (from)
+    for (const JointNote& note : notes)
+      text += fmt::format("# note: {}: {}\n", name_of(note.code), note.text);
+  return text;
+}
+
 }  // namespace condyle::io

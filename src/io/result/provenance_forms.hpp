@@ -7,6 +7,7 @@
 
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
+#include "condyle/joint_checks.hpp"
 #include "io/result/json.hpp"
 
 /// Provenance as each kind of file has it. Null, nothing and nothing if it is not known, as in a program that makes
@@ -35,5 +36,7 @@ void add_other_files(Provenance& from, const InputRecorder& read);
 std::vector<VtpField> provenance_fields(const Provenance* from);
 /// Lines "# name: value" before a CSV's header line.
 std::string provenance_comments(const Provenance* from);
+/// The same, and a line "# note: code: text" for each note on the joint.
+std::string provenance_comments(const Provenance* from, std::span<const JointNote> notes);
 
 }  // namespace condyle::io

@@ -273,7 +273,7 @@ std::string resection_json(const ResectionResult& result) {
 
 std::string resection_limits_csv(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
-  std::string text = io::provenance_comments(result.provenance) +
+  std::string text = io::provenance_comments(result.provenance, result.notes) +
                      "motion,before_deg,before_reason,after_deg,after_reason,reach_deg,gain_deg\n";
   for (std::size_t i = 0; i < answer.before.size(); ++i) {
     const motion::MotionLimit &a = answer.before[i], &b = answer.after[i];

@@ -14,7 +14,7 @@ std::string rom_csv(const RomResult& result) {
   std::vector<std::string> cells;
   for (ResultColumn& column : columns_of<LimitRecord>(joint.anatomy, shown))
     cells.push_back(std::move(column.name));
-  std::string text = provenance_comments(result.provenance) + csv_line(cells);
+  std::string text = provenance_comments(result.provenance, result.notes) + csv_line(cells);
   const AnswerFrame frame = frame_of(result);
   for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
     cells.clear();

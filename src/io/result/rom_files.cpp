@@ -168,7 +168,7 @@ void write_map_surface(const std::filesystem::path& path, const motion::MotionMa
 
 void write_map(OutputFolder& out, const RomResult& result, const VtpOptions& vtp) {
   const motion::MotionMap& map = *result.answer.map;
-  const std::string comments = io::provenance_comments(result.provenance);
+  const std::string comments = io::provenance_comments(result.provenance, result.notes);
   io::write_whole_file(out.file("map.csv"),
                        comments + map_csv(map, result.joint.ligaments, frame_of(result)));
   io::write_whole_file(out.file("map_intervals.csv"),

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "condyle/label_surface.hpp"
 #include "condyle/mesh.hpp"
 
 namespace condyle::mesh {
@@ -26,10 +28,25 @@ constexpr bool is_large_piece(std::int64_t voxels, std::int64_t most) noexcept {
   return voxels > 0 && 5 * voxels >= most;
 }
 
-/// Keeps one of the large pieces, that whose centroid is nearest to a point.
-/// Returns the voxels of those taken out; `X_WB` takes the box's indices to the frame of the point.
-std::vector<std::int64_t> keep_large_piece_near(VoxelBox& box, const Eigen::Affine3d& X_WB,
-                                                const Vec3& point_W);
+/// A piece that was taken out of a box, and whether it is of the bone of the other side of the body.
+struct LeftOutPiece {
+  std::int64_t voxels;
+  bool is_other_side;
+};
+struct KeptBone {
+  std::size_t pieces = 1;
+  std::vector<LeftOutPiece> left_out = {};
+};
+
+/// Keeps one bone: pieces that face each other across a gap of some millimetres over a section, as a growth plate or a fracture leaves them,
+/// are one. Of several bones it is the large one whose centroid is nearest to a point, or without one that of most voxels. Halves of a pelvis face
+/// each other too, at the symphysis: bones as large as each other and side by side along x are two. `X_WB` takes the box's indices to
+/// the world, whose x runs across the body. If all pieces but one are specks, the box stays as it is. Memory: a byte for each voxel.
+KeptBone keep_bone(VoxelBox& box, const Eigen::Affine3d& X_WB, const std::optional<Vec3>& point_W);
+
+/// The share of a mask's border, by faces of its voxels, that is against other values one voxel thick, but for the value `nothing`, among the
+/// voxels of its image.
+double share_in_shells(std::span<const std::uint16_t> image, std::uint16_t nothing, const VoxelMask& mask);
 
 /// How many 26-connected pieces each value below `values` is in, in one pass over voxels of the size, i fastest. Memory:
 /// two slices.

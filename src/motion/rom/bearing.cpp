@@ -141,7 +141,7 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   // Bone under a bearing cartilage is within its sphere, with a margin or without; but what meets an acromion is not bearing.
   if (has_parts && by == MarginLimit::rim) surface.margin_mm = std::max(surface.margin_mm, 0.0);
   if (!(surface.margin_mm >= 0)) return none(no_margin(joint, gap, by));
-  const auto within = motion::triangles_within(mobile, surface);
+  const auto within = motion::triangles_within(mobile, surface, stated ? std::nullopt : joint.mobile.image);
   if (has_parts)
     for (std::size_t t = 0; t < within.size(); ++t) surface.triangles[t] |= within[t];
   else

@@ -63,11 +63,20 @@ bool ContactRoles::distinguish_bearing() const noexcept {
   return holds(mobile, ContactRole::bearing) || holds(mobile, ContactRole::bearing_on_bearing);
 }
 
-std::vector<std::uint8_t> triangles_within(const TriMesh& mobile, const BearingSurface& surface) {
+std::vector<std::uint8_t> triangles_within(const TriMesh& mobile, const BearingSurface& surface,
+                                           const std::optional<BodyImage>& image) {
   const double radius = surface.head.radius + surface.margin_mm;
+  // Thick slices leave terraces on a head that stand out of it by up to their width.
+  const auto is_terrace = [&](const BodyImage& of, const Vec3& ray, double distance) {
+    const double width = of.voxel_width_mm(ray);
+    return width > by_head(usual_bearing_margin_mm, surface.head) && distance <= surface.head.radius + width;
+  };
   std::vector<std::uint8_t> near_centre(mobile.vertices.size());
-  for (std::size_t v = 0; v < mobile.vertices.size(); ++v)
-    near_centre[v] = (mobile.vertices[v] - surface.head.centre).norm() <= radius;
+  for (std::size_t v = 0; v < mobile.vertices.size(); ++v) {
+    const Vec3 ray = mobile.vertices[v] - surface.head.centre;
+    const double distance = ray.norm();
+    near_centre[v] = distance <= radius || (image && is_terrace(*image, ray / distance, distance));
+  }
   std::vector<std::uint8_t> within(mobile.triangles.size());
   for (std::size_t t = 0; t < mobile.triangles.size(); ++t) {
     const auto [a, b, c] = mobile.triangles[t];

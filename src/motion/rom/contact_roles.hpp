@@ -11,8 +11,9 @@
 
 namespace condyle::motion {
 
-/// Marks of the triangles with all three corners within the margin of the head.
-std::vector<std::uint8_t> triangles_within(const TriMesh& mobile, const BearingSurface& surface);
+/// Marks of the triangles with all three corners within the margin of the head, or with an image on a terrace of its thick slices there.
+std::vector<std::uint8_t> triangles_within(const TriMesh& mobile, const BearingSurface& surface,
+                                           const std::optional<BodyImage>& image = {});
 
 /// Roles by the words of the meshes and by the bearing surface. Linear in the triangles.
 ContactRoles contact_roles(const Joint& joint, const std::optional<BearingSurface>& surface);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
@@ -169,6 +171,23 @@ TEST(LabelTasks, AreReadByName) {
   for (const auto task : {io::LabelTask::total, io::LabelTask::total_v1, io::LabelTask::total_mr})
     EXPECT_EQ(io::label_task_of(name_of(task)), task);
   EXPECT_EQ(io::label_task_of("Total"), std::nullopt);
+}
+
+TEST(SeveralLabels, AreOneBone) {
+  const io::LabelMap map = without_names();
+  const auto voxels = [](const VoxelMask& mask) {
+    return std::count(mask.inside.begin(), mask.inside.end(), std::uint8_t{1});
+  };
+  std::vector<std::uint32_t> labels;
+  for (const std::uint32_t label : map.labels)
+    if (label != 0) labels.push_back(label);
+  ASSERT_GE(labels.size(), 2u);
+  const std::string a = std::to_string(labels[0]), b = std::to_string(labels[1]);
+  const io::ChosenLabel both = io::choose_label(map, a + "," + b);
+  ASSERT_EQ(both.also.size(), 1u);
+  EXPECT_EQ(voxels(io::mask_of(map, both)),
+            voxels(io::mask_of(map, 0, labels[0])) + voxels(io::mask_of(map, 0, labels[1])));
+  EXPECT_EQ(chosen(map, a + ",999"), chosen(map, "999"));
 }
 
 }  // namespace
