@@ -497,12 +497,8 @@ Person person_of(TomlTable& file) {
   if (!table) return {};
   Person person{.age_years = table->number("age")};
   if (person.age_years && !is_age(*person.age_years)) table->fail("age", "must be 0 to 120 years");
-<<<<<<< HEAD
   if (const auto sex = table->word("sex", {"female", "male"})) person.sex = all_sexes[*sex];
-=======
-  if (table->has("sex")) person.sex = all_sexes[table->required_word("sex", {"female", "male"})];
   person.species = table->text("species").value_or("");
->>>>>>> 89333086 (Take bones of another species than human as they are, and say the unit of meshes that are not in millimetres)
   table->finish();
   return person;
 }

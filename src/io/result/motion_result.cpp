@@ -217,15 +217,9 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   const Joint& joint = question.joint.joint;
   const FrameTimes& times = question.motion.times;
   const char* unit = times.in_seconds ? " s" : "";
-<<<<<<< HEAD
-  std::string text =
-      fmt::format("{}: {}, {}{:g} to {:g}{}\n", joint.name, core::counted(summary.frames, "frame", "frames"),
-                  times.in_seconds ? "" : "numbers ", times.values.front(), times.values.back(), unit);
-=======
-  std::string text = fmt::format("{}: {} frames, {}{:g} to {:g}{}{}\n", joint.name, summary.frames,
-                                 times.in_seconds ? "" : "numbers ", times.values.front(),
-                                 times.values.back(), unit, whose_text(joint));
->>>>>>> 89333086 (Take bones of another species than human as they are, and say the unit of meshes that are not in millimetres)
+  std::string text = fmt::format(
+      "{}: {}, {}{:g} to {:g}{}{}\n", joint.name, core::counted(summary.frames, "frame", "frames"),
+      times.in_seconds ? "" : "numbers ", times.values.front(), times.values.back(), unit, whose_text(joint));
   text += io::parameters_text(joint);
   if (summary.gaps > 0)
     text += fmt::format("  {}: no answer there\n",

@@ -382,14 +382,9 @@ std::string rom_text(const RomResult& result, TextForm form) {
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
   const Joint& joint = result.joint;
-<<<<<<< HEAD
   const std::string bodies = fmt::format("{} in {}", joint.mobile.name, joint.fixed.name);
-  std::string text = wrapped(fmt::format("{}{}, {} side\n", joint.name == bodies ? "" : joint.name + ": ",
-                                         bodies, name_of(joint.side)));
-=======
-  std::string text = wrapped(fmt::format("{}: {} in {}, {} side{}\n", joint.name, joint.mobile.name,
-                                         joint.fixed.name, name_of(joint.side), whose_text(joint)));
->>>>>>> 89333086 (Take bones of another species than human as they are, and say the unit of meshes that are not in millimetres)
+  std::string text = wrapped(fmt::format("{}{}, {} side{}\n", joint.name == bodies ? "" : joint.name + ": ",
+                                         bodies, name_of(joint.side), whose_text(joint)));
   text += wrapped(io::parameters_text(joint));
   text += wrapped(bearing_text(result, form) + meshes_text(result));
   for (const std::string& caveat : result.answer.caveats) text += wrapped(fmt::format("  {}\n", caveat));
