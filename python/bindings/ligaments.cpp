@@ -118,7 +118,7 @@ py::dict states(const JointHandle& handle, const py::object& poses, const py::ob
 }
 
 /// What check_ligaments() says of them in these poses.
-py::list checks_of(const JointHandle& handle, const py::object& poses) {
+py::list ligament_checks_of(const JointHandle& handle, const py::object& poses) {
   const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
   return notes_of(motion::check_ligaments(ligaments_along(handle.joint().ligaments, X_FM), X_FM));
 }
@@ -142,7 +142,7 @@ py::array stiffness_of(const JointHandle& handle, const py::object& poses) {
 void bind_ligaments(py::module_& module) {
   module.def("ligaments_of", &ligaments_of);
   module.def("ligament_states", &states);
-  module.def("ligament_checks", &checks_of);
+  module.def("ligament_checks", &ligament_checks_of);
   module.def("ligament_stiffness", &stiffness_of);
 }
 
