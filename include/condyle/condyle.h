@@ -135,7 +135,7 @@ typedef struct condyle_touch {
   double depth_bound_mm;            ///< no place is deeper; known without a deepest place too
   double place_mm[3], exit_mm[3];   ///< the nearest point of the other surface
   double volume_mm3, volume_error_mm3, fixed_area_mm2, mobile_area_mm2;  ///< only `with_measures` != 0
-  /// Likewise, how much a body covers more than once about the overlap: above 0 if it crosses itself, and the volume counts that again.
+  /// Likewise, how much of the volume is counted again because a body covers it more than once.
   double fixed_covered_again_mm3, mobile_covered_again_mm3;
 } condyle_touch;
 

@@ -46,8 +46,8 @@ struct ContactMeasures {
   std::optional<double> volume_mm3;
   /// No more than this is the volume off by what the computation rounds; vertices as placed in F are taken as exact.
   double volume_error_mm3 = 0;
-  /// By how much the body covers the surroundings of the overlap more than once, mm^3: above 0 if it crosses itself or has
-  /// components one in another, and the volume may count space more than once.
+  /// How much of that volume is counted again, mm^3, because the body covers it more than once: it crosses itself, has triangles twice
+  /// or one component in another.
   double mobile_covered_again_mm3 = 0, fixed_covered_again_mm3 = 0;
   /// Centroid of both patches; in F, empty if there is none.
   std::optional<Vec3> centroid;

@@ -139,6 +139,70 @@ class Columns {
     return total;
   }
 
+  /// Integral over the crop of (w - 1)+ of one body where the other is: what the common volume counts again. Seen along z, all prisms near a
+  /// triangle divide it into pieces through each of which both winding numbers change alike, and the integral is a sum over pieces of
+  /// their heights times the change, because nothing of it is above the crop. Triangles that coincide lie one above the other in the order of
+  /// body and number.
+  double counted_again(const Grid& body, const Grid& other) const {
+    const std::array<const Grid*, 2> grids{&body, &other};
+    struct Piece {
+      Polygon part;
+      std::array<double, 2> above;  // winding numbers of both bodies
+    };
+    const auto is_again = [](const std::array<double, 2>& w) {
+      return w[1] > 0 ? std::max(w[0] - 1, 0.0) : 0.0;
+    };
+    mesh::CompensatedSum sum;
+    for (std::size_t own = 0; own < 2; ++own) {
+      const std::vector<Prism>& prisms = grids[own]->prisms();
+      std::vector<double> sums(prisms.size());
+      core::parallel_chunks(prisms.size(), 8, [&](std::size_t first, std::size_t last) {
+        std::vector<Piece> pieces, divided;
+        std::vector<Polygon> beyond;
+        for (std::size_t i = first; i < last; ++i) {
+          const Prism& prism = prisms[i];
+          if (prism.low_z > crop_.top) continue;
+          pieces.assign(1, {crop_.of(prism), {}});
+          for (std::size_t of = 0; of < 2; ++of)
+            grids[of]->for_each_near(prism, [&](Index j, const Prism& another) {
+              if ((of == own && j == i) || another.high_z < prism.low_z || another.is_beside(prism)) return;
+              const double nudge = (std::pair(of, std::size_t{j}) > std::pair(own, i) ? 64 : -64) *
+                                   unit_rounding * size_ * (prism.secant + another.secant);
+              divided.clear();
+              for (const Piece& piece : pieces) {
+                if (another.clipped(piece.part).count < 3) {
+                  divided.push_back(piece);
+                  continue;
+                }
+                beyond.clear();
+                const Polygon within = another.divided(piece.part, beyond);
+                const auto apart = [&](std::size_t k) {
+                  return another.height_at(within.corners[k]) - within.corners[k].z + nudge;
+                };
+                const auto add = [&](const Polygon& part, double sign) {
+                  if (part.count < 3) return;
+                  divided.push_back({part, piece.above});
+                  divided.back().above[of] += sign;
+                };
+                for (const Polygon& part : beyond) add(part, 0);
+                add(cut(within, apart), another.sign);
+                add(cut(within, [&](std::size_t k) { return -apart(k); }), 0);
+              }
+              pieces.swap(divided);
+            });
+          for (const Piece& piece : pieces) {
+            std::array<double, 2> below = piece.above;
+            below[own] += prism.sign;
+            const double change = is_again(below) - is_again(piece.above);
+            if (change != 0) sums[i] += change * integral_between(piece.part, crop_.top);
+          }
+        }
+      });
+      for (const double each : sums) sum.add(each);
+    }
+    return sum.value();
+  }
+
   /// The part of a body's triangle that is inside the other body; nothing if that is no more than rounding.
   std::optional<PatchPart> part_inside(const Prism& prism, const Grid& other_body) const {
     Polygon part = crop_.of(prism);
@@ -369,12 +433,16 @@ Overlap overlap_of(const OverlapBody& fixed, const OverlapBody& mobile, std::spa
   const Total common = columns.common_volume();
   out.volume = common.volume.value();
   out.volume_error = unit_rounding * common.error.value();
-  const auto beyond_rounding = [](const Total& total) {
-    const double value = total.volume.value();
-    return value > unit_rounding * total.error.value() ? value : 0;
+  // Most bodies cover nothing about the overlap more than once, which takes pairs of triangles only.
+  const auto counted_again = [&](const Grid& body, const Grid& other) {
+    const Total covered = columns.covered_again(body);
+    const double rounding = unit_rounding * covered.error.value();
+    if (!(covered.volume.value() > rounding)) return 0.0;
+    const double again = columns.counted_again(body, other);
+    return again > rounding ? again : 0;
   };
-  out.fixed_covered_again = beyond_rounding(columns.covered_again(columns.fixed()));
-  out.mobile_covered_again = beyond_rounding(columns.covered_again(columns.mobile()));
+  out.fixed_covered_again = counted_again(columns.fixed(), columns.mobile());
+  out.mobile_covered_again = counted_again(columns.mobile(), columns.fixed());
   return out;
 }
 

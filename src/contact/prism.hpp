@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "condyle/pose.hpp"
 #include "core/ordered_sums.hpp"
@@ -171,6 +172,17 @@ class Prism {
     Polygon part = polygon;
     for (std::size_t e = 0; e < 3 && part.count > 0; ++e)
       if (cuts[e]) part = cut(part, [&](std::size_t k) { return edges_[e].side(part.corners[k]); });
+    return part;
+  }
+
+  /// The same, and adds what lies beyond each edge to `beyond`: together they are the polygon.
+  Polygon divided(const Polygon& polygon, std::vector<Polygon>& beyond) const {
+    Polygon part = polygon;
+    for (const Edge& edge : edges_) {
+      const Polygon outside = cut(part, [&](std::size_t k) { return -edge.side(part.corners[k]); });
+      if (outside.count > 2) beyond.push_back(outside);
+      part = cut(part, [&](std::size_t k) { return edge.side(part.corners[k]); });
+    }
     return part;
   }
 

@@ -283,7 +283,7 @@ export const words = {
   penetrationVolume: (volume_mm3: number, within_mm3: string) =>
     `penetration volume ${volume_mm3.toFixed(2)} mm³, to within ${within_mm3}`,
   coveredAgain: (volume_mm3: number) =>
-    `a body overlaps itself in ${volume_mm3.toPrecision(3)} mm³ around the contact: the volume may count that space twice`,
+    `of it ${volume_mm3.toPrecision(3)} mm³ are counted again, where a body covers space more than once`,
   pairsCount: (count: number) => `${count} pairs of triangles in contact`,
   stepTook: (ms: number) => `answered in ${ms.toFixed(1)} ms`,
   precomputed: "Poses",

@@ -48,8 +48,7 @@ ColumnList depth_columns() {
       {"depth_volume_mm3", "mm^3", number_column, "of the space inside both; empty where a mesh is open"},
       {"depth_volume_error_mm3", "mm^3", number_column, "bound on what the volume is off by rounding"},
       {"depth_covered_again_mm3", "mm^3", number_column,
-       "how much of the overlap's surroundings a body covers more than once; above 0 the volume may count "
-       "space twice"},
+       "how much of that volume is counted again because a body covers it more than once"},
       {"depth_nearest_distance_mm", "mm", number_column,
        "smallest distance of the surfaces, 0 where they meet"}};
 }
