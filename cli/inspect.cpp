@@ -136,10 +136,7 @@ void add_inspect(CLI::App& app) {
                    "Mesh files, .stl, .obj, .ply, .vtp or .vtk, or label maps, .nii, .nii.gz, .hdr, .nrrd, "
                    ".nhdr, .mha or .mhd, or models of OpenSim, .osim")
       ->required();
-  command->add_option("--repair", options->repairs, "Make these repairs, which lose nothing, in this order")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->option_text("weld,drop_unreferenced,flip_inverted");
+  add_repair(*command, options->repairs);
   add_polygons(*command, options->polygons, "refuse");
   add_out(*command, options->out, "Write the meshes into this folder, as read and repaired, .ply");
   add_json(*command, options->form);

@@ -42,6 +42,13 @@ void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, c
       ->option_text("refuse|split|guess");
 }
 
+void add_repair(CLI::App& command, std::vector<std::string>& repairs) {
+  command.add_option("--repair", repairs, "Make these repairs, which lose nothing, in this order")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("weld,drop_unreferenced,flip_inverted");
+}
+
 void add_model(CLI::App& command, ModelOptions& options) {
   add_anatomy(command, options.anatomy,
               "The kind of a model's joint. Default: by the names of joint and bodies");

@@ -29,6 +29,9 @@ void add_anatomy(CLI::App& command, std::optional<Anatomy>& anatomy, const std::
 /// --polygons; `otherwise` says what holds without it.
 void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, const std::string& otherwise);
 
+/// --repair, of commands that read meshes.
+void add_repair(CLI::App& command, std::vector<std::string>& repairs);
+
 /// --anatomy, --contact, --geometry and --polygons.
 void add_model(CLI::App& command, ModelOptions& options);
 std::vector<std::string> model_names();

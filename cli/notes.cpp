@@ -40,13 +40,13 @@ bool is_grave(const JointNote& note) noexcept {
 }
 
 template <class Note>
-void say(const std::vector<Note>& notes, const io::LoadedJoint& joint, Strictness strictness,
+void say(const std::vector<Note>& notes, const std::string& file, Strictness strictness,
          std::string_view whose = {}) {
   if (strictness == Strictness::errors && !notes.empty()) {
     std::string all;
     for (const Note& each : notes)
       all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name_of(each.code), each.text);
-    throw MeshError(fmt::format("{}: {} (--strict)", joint.report.file.path.string(), all));
+    throw MeshError(fmt::format("{}: {} (--strict)", file, all));
   }
   note_all(notes, whose);
 }
@@ -57,13 +57,17 @@ std::vector<JointNote> noted(const io::LoadedJoint& joint, Strictness strictness
   std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
   std::vector<JointNote> gravest_first = notes;
   std::stable_partition(gravest_first.begin(), gravest_first.end(), is_grave);
-  say(gravest_first, joint, strictness, whose);
+  say(gravest_first, joint.report.file.path.string(), strictness, whose);
   return notes;
 }
 
 void note_contact(const std::vector<motion::ContactNote>& notes, const io::LoadedJoint& joint,
                   Strictness strictness) {
-  say(notes, joint, strictness);
+  say(notes, joint.report.file.path.string(), strictness);
+}
+
+void say_notes(const std::vector<JointNote>& notes, const std::string& file, Strictness strictness) {
+  say(notes, file, strictness);
 }
 
 }  // namespace condyle::cli

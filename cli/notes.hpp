@@ -38,6 +38,9 @@ void note_all(const std::vector<Note>& notes, std::string_view whose = {}) {
          std::string(name_of(each.code)));
 }
 
+/// Notes of an answer about this file, or MeshError with all of them where they are errors.
+void say_notes(const std::vector<JointNote>& notes, const std::string& file, Strictness strictness);
+
 /// The same of notes on layers, loads and motions, once there is an answer.
 void note_contact(const std::vector<motion::ContactNote>& notes, const io::LoadedJoint& joint,
                   Strictness strictness);

@@ -18,6 +18,7 @@
 #include "io/file/output_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/result/repair_text.hpp"
 #include "io/result/touch_result.hpp"
 #include "model_options.hpp"
 #include "notes.hpp"
@@ -32,8 +33,10 @@ struct TwoMeshes {
   std::optional<std::string> pose;
   std::optional<io::PolygonRule> polygons;
   std::optional<LengthUnit> units;
-  std::vector<double> along, axis, centre = {0, 0, 0};
+  std::vector<double> along, axis, centre = {0, 0, 0}, from;
+  std::vector<std::string> repairs;
   TouchMeasures measures = TouchMeasures::depth;
+  Strictness strictness = Strictness::notes;
   io::VtpEncoding vtp_encoding = io::VtpEncoding::binary;
   AnswerForm form = AnswerForm::text;
 };
@@ -48,6 +51,13 @@ io::TouchMesh read_touch_mesh(const std::string& path, const TwoMeshes& options)
   const io::MeshFormat format = io::mesh_format_of(path);
   const std::string bytes = io::read_whole_file(path);
   TriMesh mesh = io::read_mesh(bytes, format, path, options.polygons.value_or(io::PolygonRule::refuse)).mesh;
+  std::vector<Repair> repairs;
+  for (const std::string& name : options.repairs) repairs.push_back(io::repair_named(name));
+  try {
+    for (const RepairDone& done : repair_mesh(mesh, repairs)) note(path + ": repair " + io::describe(done));
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", path, error.what()));
+  }
   if (const double mm = mm_per(options.units.value_or(LengthUnit::millimetres)); mm != 1)
     for (std::vector<double>* row : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z})
       for (double& value : *row) value *= mm;
@@ -73,19 +83,6 @@ io::PoseArgument placing_of(const TwoMeshes& options) {
   }
 }
 
-/// Lengths are taken as they are: a size that suggests another unit is noted.
-std::vector<JointNote> unit_notes(const io::TouchFiles& files) {
-  std::vector<JointNote> notes;
-  for (const io::TouchMesh* mesh : {&files.fixed, &files.mobile})
-    if (const LikelyUnit likely = likely_unit(mesh->mesh);
-        likely.unit && *likely.unit != LengthUnit::millimetres)
-      notes.push_back({JointNoteCode::unlikely_size,
-                       fmt::format("{}: a bone of this size would be in {}; lengths are taken as mm, --units "
-                                   "says otherwise",
-                                   mesh->path.string(), plural_of(*likely.unit))});
-  return notes;
-}
-
 io::TouchFiles read_touch_files(const TwoMeshes& options, const CLI::App& command) {
   const io::PoseArgument pose = placing_of(options);
   for (const std::string& remark : pose.notes) note("pose: " + remark);
@@ -101,20 +98,18 @@ io::TouchFiles read_touch_files(const TwoMeshes& options, const CLI::App& comman
   return files;
 }
 
+/// Says the notes of an answer, or refuses it for them, before anything is written.
 template <class Answer>
-Answer with_unit_notes(Answer answer, const TwoMeshes& options, const io::TouchFiles& files) {
-  if (options.units) return answer;
-  const std::vector<JointNote> notes = unit_notes(files);
-  answer.notes.insert(answer.notes.begin(), notes.begin(), notes.end());
+Answer noted(Answer answer, const TwoMeshes& options) {
+  say_notes(answer.notes, options.fixed + ", " + options.mobile, options.strictness);
   return answer;
 }
 
-/// An answer and its notes, in the form that was asked for.
+/// In the form that was asked for.
 template <class Answer>
 void say_touch(const TwoMeshes& options, const io::TouchFiles& files, const Answer& answer,
                io::Json (*object)(const Answer&, const io::TouchFiles*),
                std::string (*text)(const Answer&, const io::TouchFiles&)) {
-  note_all(answer.notes);
   print(options.form == AnswerForm::json ? io::document(object(answer, &files)) : text(answer, files));
 }
 
@@ -132,10 +127,14 @@ void touch_command(const TwoMeshes& options, const CLI::App& command) {
   const io::TouchFiles files = read_touch_files(options, command);
   if (!options.out.empty()) io::check_touch_folder(options.out, files);
   if (!options.picture.empty()) io::check_output_file(options.picture, files.read, {"a picture", {".png"}});
-  const TouchAnswer answer = with_unit_notes(
+  const TouchAnswer answer = noted(
       answer_touch(files.fixed.mesh, files.mobile.mesh,
-                   {.X_FM = files.X_FM, .measures = options.measures, .along = ways_out_of(options)}),
-      options, files);
+                   {.X_FM = files.X_FM,
+                    .measures = options.measures,
+                    .along = ways_out_of(options),
+                    .centre = options.from.empty() ? std::nullopt : std::optional(three_of(options.from)),
+                    .units_are_stated = options.units.has_value()}),
+      options);
   if (!options.out.empty()) say_written(io::write_touch(options.out, answer, files, options.vtp_encoding));
   if (!options.picture.empty()) {
     io::write_touch_picture(options.picture, answer, files);
@@ -146,17 +145,16 @@ void touch_command(const TwoMeshes& options, const CLI::App& command) {
 
 void turn_command(const TwoMeshes& options, const CLI::App& command) {
   const io::TouchFiles files = read_touch_files(options, command);
-  const TurnRequest request{three_of(options.axis), three_of(options.centre), files.X_FM};
-  say_touch(options, files,
-            with_unit_notes(answer_turn(files.fixed.mesh, files.mobile.mesh, request), options, files),
+  const TurnRequest request{three_of(options.axis), three_of(options.centre), files.X_FM,
+                            options.units.has_value()};
+  say_touch(options, files, noted(answer_turn(files.fixed.mesh, files.mobile.mesh, request), options),
             io::turn_object, io::turn_text);
 }
 
 void slide_command(const TwoMeshes& options, const CLI::App& command) {
   const io::TouchFiles files = read_touch_files(options, command);
-  const SlideRequest request{three_of(options.along), files.X_FM};
-  say_touch(options, files,
-            with_unit_notes(answer_slide(files.fixed.mesh, files.mobile.mesh, request), options, files),
+  const SlideRequest request{three_of(options.along), files.X_FM, options.units.has_value()};
+  say_touch(options, files, noted(answer_slide(files.fixed.mesh, files.mobile.mesh, request), options),
             io::slide_object, io::slide_text);
 }
 
@@ -178,6 +176,8 @@ CLI::App* add_two_meshes(CLI::App& app, const char* name, const char* help, TwoM
               {"m", LengthUnit::metres}},
              "The unit of both meshes; all else is in mm", "mm");
   add_polygons(*command, options.polygons, "refuse");
+  add_repair(*command, options.repairs);
+  add_strict(*command, options.strictness);
   add_json(*command, options.form);
   return command;
 }
@@ -200,6 +200,11 @@ void add_touch(CLI::App& app) {
       ->expected(3)
       ->take_all()
       ->option_text("X Y Z ... (with --measures both ways along x, y and z)");
+  command
+      ->add_option("--centre", options->from,
+                   "Measure the depth along rays from this joint centre too, as condyle depth does")
+      ->expected(3)
+      ->option_text("X Y Z");
   command->add_flag_callback(
       "--measures", [options] { options->measures = TouchMeasures::all; },
       "Compute penetration volume and areas too, which takes longer than the rest");
@@ -208,8 +213,8 @@ void add_touch(CLI::App& app) {
       ->option_text("FILE");
   command->add_flag_callback(
       "--ascii", [options] { options->vtp_encoding = io::VtpEncoding::text; }, "Write VTP files as text");
-  group_help(*command, {{"Most used", {"--pose", "--measures", "--along", "--out", "--json"}},
-                        {"Meshes", {"--matrix", "--units", "--polygons"}},
+  group_help(*command, {{"Most used", {"--pose", "--measures", "--along", "--centre", "--out", "--json"}},
+                        {"Meshes", {"--matrix", "--units", "--polygons", "--repair", "--strict"}},
                         {"Output", {"--picture", "--ascii", "--help"}}});
   command->callback([options, command] { touch_command(*options, *command); });
 }
@@ -230,7 +235,7 @@ void add_turn(CLI::App& app) {
       ->expected(3)
       ->option_text("X Y Z (0 0 0)");
   group_help(*command, {{"Most used", {"--axis", "--centre", "--pose", "--json"}},
-                        {"Meshes", {"--matrix", "--units", "--polygons"}},
+                        {"Meshes", {"--matrix", "--units", "--polygons", "--repair", "--strict"}},
                         {"Output", {"--help"}}});
   command->callback([options, command] { turn_command(*options, *command); });
 }
@@ -247,7 +252,7 @@ void add_slide(CLI::App& app) {
       ->required()
       ->option_text("X Y Z");
   group_help(*command, {{"Most used", {"--along", "--pose", "--json"}},
-                        {"Meshes", {"--matrix", "--units", "--polygons"}},
+                        {"Meshes", {"--matrix", "--units", "--polygons", "--repair", "--strict"}},
                         {"Output", {"--help"}}});
   command->callback([options, command] { slide_command(*options, *command); });
 }

@@ -93,6 +93,8 @@ struct MeshReport {
   /// Used more often in one direction than in the other: all boundary and inconsistent edges, and those
   /// non-manifold ones that keep the mesh from being closed.
   Finding<Edge> unbalanced_edges;
+  /// If every triangle is there twice, once in each sense, a line that says so; else empty.
+  std::string two_sided = {};
   /// Has the three vertices of an earlier one, in any order.
   Finding<Index> duplicate_triangles;
   /// A vertex twice, or an area of exactly zero.

@@ -48,6 +48,8 @@ enum class JointNoteCode : std::uint8_t {
   ligament_off_bone,  ///< A ligament ends off its body, or nearer to the other one.
   ligament_through_bone,  ///< Its straight part runs through a body in the pose in which the meshes are given.
   unlikely_strain,        ///< A strain or slack length that no ligament has, as in per cent or another unit.
+  mixed_orientation,      ///< Neighbours are wound differently: no inside, though there is no boundary.
+  two_sided,  ///< Triangles that lie on others in the opposite sense: no inside if all do, else walls without thickness.
 };
 
 /// As in files: "wrong_side".

@@ -71,6 +71,7 @@ py::dict inspected(const Mesh& mesh) {
   dict["vertices"] = report.vertices;
   dict["triangles"] = report.triangles;
   dict["is_closed"] = report.is_closed();
+  dict["two_sided"] = report.two_sided.empty() ? py::object(py::none()) : py::str(report.two_sided);
   dict["findings"] = findings;
   dict["components"] = components(report);
   dict["bounds"] = py::make_tuple(array_of(report.bounds.low), array_of(report.bounds.high));

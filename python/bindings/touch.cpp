@@ -34,10 +34,11 @@ py::tuple of_each(const py::object& given, const py::object& progress, const Ask
 }
 
 py::tuple touch(const Mesh& fixed, const Mesh& mobile, const py::object& pose, const py::object& along,
-                bool measures, const py::object& progress) {
+                bool measures, const py::object& centre, const py::object& progress) {
   TouchRequest request{.measures = measures ? TouchMeasures::all : TouchMeasures::depth};
   const PointsIn directions(along, "along");
   for (std::size_t i = 0; i < directions.size(); ++i) request.along.push_back(directions.view()[i]);
+  if (!centre.is_none()) request.centre = vector_in(centre, "centre");
   const contact::JointContact bodies(fixed, mobile);
   return of_each(pose, progress, [&](const Pose& X_FM) {
     TouchRequest at = request;

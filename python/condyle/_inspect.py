@@ -57,12 +57,14 @@ class MeshReport:
     `findings` has a :class:`Finding` under each of boundary_edges, boundary_loops, non_manifold_edges,
     non_manifold_vertices, inconsistent_edges, unbalanced_edges, duplicate_triangles, degenerate_triangles,
     unreferenced_vertices, duplicate_vertices, inverted_components, self_crossings. `bounds` is (low, high), each (3,);
-    `edge_lengths` are the shortest, the median and the longest. `signed_volume` is None of an open mesh.
+    `edge_lengths` are the shortest, the median and the longest. `signed_volume` is None of an open mesh. `two_sided` is None, or a line that
+    says that every triangle is there twice, once in each sense.
     """
 
     vertices: int
     triangles: int
     is_closed: bool
+    two_sided: Optional[str]
     findings: Mapping[str, Finding]
     components: tuple[MeshComponent, ...]
     bounds: tuple[NDArray[np.float64], NDArray[np.float64]]

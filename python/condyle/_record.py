@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import is_dataclass
-from typing import Any, Iterator, Mapping, NoReturn, TypeVar, get_args, get_type_hints
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, NoReturn, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 from ._answer import html_of
 from ._errors import unknown
 from ._motion import Angles, Motion
+
+if TYPE_CHECKING:
+    import pandas
 
 AnyRecord = TypeVar("AnyRecord", bound="Record")
 Value = TypeVar("Value")
@@ -61,8 +64,24 @@ def columns_of(values: object) -> dict[str, object]:
     return row
 
 
+def row_of(record: Record, prefix: str = "") -> dict[str, object]:
+    """Numbers and words of a record, and of records in it, by their keys; a point has a column for each coordinate."""
+    row: dict[str, object] = {}
+    for key, value in vars(record).items():
+        if isinstance(value, Record):
+            row.update(row_of(value, f"{prefix}{key}."))
+        elif isinstance(value, np.ndarray):
+            row.update((f"{prefix}{key}.{axis}", each) for axis, each in zip("xyz", value))
+        elif not isinstance(value, list):
+            row[prefix + key] = value
+    return row
+
+
 class Record:
-    """A frozen record, whose values are attributes and, as in its file, have keys: `limit.closed_form["limit_deg"]`."""
+    """A frozen record, whose values are attributes and, as in its file, have keys: `limit.closed_form["limit_deg"]`.
+
+    `limit["closed_form.limit_deg"]` is the same, and None if there is no closed form.
+    """
 
     @classmethod
     def of(cls: type[AnyRecord], said: Mapping[str, object]) -> AnyRecord:
@@ -73,11 +92,21 @@ class Record:
         return record
 
     def __getitem__(self, key: str) -> object:
-        try:
-            value: object = vars(self)[key]
-            return value
-        except KeyError:
-            raise unknown("key", key, vars(self)) from None
+        value: object = self
+        for part in key.split("."):
+            if value is None:
+                return None
+            known = vars(value) if isinstance(value, Record) else {}
+            if part not in known:
+                raise unknown("key", part, known)
+            value = known[part]
+        return value
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A table of one row, columns by their keys: "deepest.depth_mm". Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame([row_of(self)])
 
     def __iter__(self) -> Iterator[str]:
         return iter(vars(self))

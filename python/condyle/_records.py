@@ -514,6 +514,9 @@ class TouchRecord(Record):
         coincide), and if no body has an inside
     depth_bound_mm : float or None
         no place of either surface is deeper than this; null without contact, and if no body has an inside
+    ray_depth_mm : float or None
+        along rays from `--centre`, as `condyle depth --method radial` has it: of the deepest vertex whose ray is a depth; null
+        without a centre or contact, and if a body has no inside
     volume_mm3 : float or None
         of the space inside both; null without contact, without `--measures`, and if a body has no inside
     volume_error_mm3 : float or None
@@ -525,10 +528,10 @@ class TouchRecord(Record):
     centroid_mm : NDArray[np.float64] or None
         of both areas
     fixed_covered_again_mm3 : float or None
-        how much the fixed body covers more than once about the overlap: above 0 if it crosses itself, and the volume counts that
-        again
+        how much of that volume is counted again because the fixed body covers it more than once: it crosses itself or has
+        triangles twice
     mobile_covered_again_mm3 : float or None
-        likewise the mobile body
+        likewise because of the mobile body
     free : list[FreeTranslation]
         for each direction of `--along` how far the mobile body moves until it is free, below
     notes : list[Note]
@@ -543,6 +546,7 @@ class TouchRecord(Record):
     nearest_mobile_mm: Optional[NDArray[np.float64]] = None
     deepest: Optional[TouchDepth] = None
     depth_bound_mm: Optional[float] = None
+    ray_depth_mm: Optional[float] = None
     volume_mm3: Optional[float] = None
     volume_error_mm3: Optional[float] = None
     fixed_area_mm2: Optional[float] = None

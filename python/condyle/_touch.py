@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any, Generic, Sequence, TypeVar, Union, overload
+import os
+from typing import TYPE_CHECKING, Any, Generic, Optional, Sequence, TypeVar, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._errors import unknown
-from ._mesh import MeshLike, TriMesh
+from ._errors import JointWarning, unknown, warn
+from ._mesh import MeshLike, TriMesh, read_mesh
 from ._pressure import ManyMatrices, OneMatrix
-from ._record import Record
+from ._record import Record, row_of
 from ._records import SlideRecord, TouchRecord, TurnRecord
-from ._words import Progress, progress_of
+from ._words import Path, Progress, progress_of
 
+if TYPE_CHECKING:
+    import pandas
+
+MeshOrPath = Union[MeshLike, Path]
 AnyRecord = TypeVar("AnyRecord", bound=Record)
 Numbers = Union[NDArray[np.float64], NDArray[np.bool_]]
 
@@ -42,7 +47,7 @@ class Answers(Sequence[AnyRecord], Generic[AnyRecord]):
             return Answers(self._records[key])
         if not isinstance(key, str):
             return self._records[key]
-        values = [_value(record, key) for record in self._records]
+        values = [record[key] for record in self._records]
         if all(isinstance(value, bool) for value in values):
             return np.array(values, dtype=bool)
         known = next((value for value in values if value is not None), np.nan)
@@ -54,15 +59,20 @@ class Answers(Sequence[AnyRecord], Generic[AnyRecord]):
     def __len__(self) -> int:
         return len(self._records)
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each pose, columns by their keys: "deepest.depth_mm". Needs pandas."""
+        import pandas
+
+        rows = [row_of(record) for record in self._records]
+        return pandas.DataFrame(rows, columns=list(dict.fromkeys(key for row in rows for key in row)))
+
     def __repr__(self) -> str:
         return f"Answers({len(self)} poses)"
 
 
-def _value(record: Any, path: str) -> Any:
-    """What a record has under these keys; None where one of them is empty."""
-    for key in path.split("."):
-        record = None if record is None else record[key]
-    return record
+def _meshes(a: MeshOrPath, b: MeshOrPath) -> tuple[TriMesh, TriMesh]:
+    fixed, mobile = (read_mesh(mesh) if isinstance(mesh, (str, os.PathLike)) else TriMesh.of(mesh) for mesh in (a, b))
+    return fixed, mobile
 
 
 def _answers(record: type[AnyRecord], found: tuple[bool, list[dict[str, Any]]], fixed: TriMesh, mobile: TriMesh
@@ -75,6 +85,8 @@ def _answers(record: type[AnyRecord], found: tuple[bool, list[dict[str, Any]]], 
                 if end and end["features"] and mesh._first is not None:
                     _as_given(end["features"][body], mesh._first)
     records = [record.of(each) for each in said]
+    for code, text in dict.fromkeys((note["code"], note["text"]) for each in said for note in each["notes"]):
+        warn(f"{code}: {text}", JointWarning)
     return records[0] if is_one else Answers(records)
 
 
@@ -87,29 +99,34 @@ def _as_given(feature: dict[str, Any], first: NDArray[np.uint32]) -> None:
 
 
 @overload
-def touch(a: MeshLike, b: MeshLike, pose: OneMatrix = ..., *, along: ArrayLike = ..., measures: bool = ...,
-          progress: Progress = ...) -> TouchRecord: ...
+def touch(a: MeshOrPath, b: MeshOrPath, pose: OneMatrix = ..., *, along: ArrayLike = ..., measures: bool = ...,
+          centre: Optional[ArrayLike] = ..., progress: Progress = ...) -> TouchRecord: ...
 
 
 @overload
-def touch(a: MeshLike, b: MeshLike, pose: ManyMatrices, *, along: ArrayLike = ..., measures: bool = ...,
-          progress: Progress = ...) -> Answers[TouchRecord]: ...
+def touch(a: MeshOrPath, b: MeshOrPath, pose: ManyMatrices, *, along: ArrayLike = ..., measures: bool = ...,
+          centre: Optional[ArrayLike] = ..., progress: Progress = ...) -> Answers[TouchRecord]: ...
 
 
-def touch(a: MeshLike, b: MeshLike, pose: ArrayLike = np.eye(4), *, along: ArrayLike = (), measures: bool = False,
-          progress: Progress = None) -> Union[TouchRecord, Answers[TouchRecord]]:
+def touch(a: MeshOrPath, b: MeshOrPath, pose: ArrayLike = np.eye(4), *, along: ArrayLike = (), measures: bool = False,
+          centre: Optional[ArrayLike] = None, progress: Progress = None) -> Union[TouchRecord, Answers[TouchRecord]]:
     """Whether two meshes touch, and how deep: the answer of `condyle touch`, by its keys.
 
     Parameters
     ----------
     a, b : mesh
-        The one that stays and the one that moves, each a :class:`TriMesh` or what :meth:`TriMesh.of` takes.
+        The one that stays and the one that moves, each a :class:`TriMesh`, what :meth:`TriMesh.of` takes, or the path of a file.
     pose : (4, 4), or (N, 4, 4) for :class:`Answers`
         Where `b` is in the frame of `a`; the identity if not given.
     along : (K, 3)
         Directions in the frame of `a`, of any length but zero, along which `b` is moved until it is free.
     measures : bool
         Penetration volume and areas too, which take longer than the rest.
+    centre : (3,), optional
+        A joint centre in the frame of `a`: then `ray_depth_mm` is how deep along rays from there, as `condyle depth` measures.
+
+    Each note of the answer is a :class:`JointWarning` too, once for all poses. A number has the same spelling of one pose and of many:
+    `answer["deepest.depth_mm"]`; `to_dataframe()` has a row for each.
 
     C++: `condyle::answer_touch` in condyle/answer/depth.hpp.
 
@@ -127,24 +144,24 @@ def touch(a: MeshLike, b: MeshLike, pose: ArrayLike = np.eye(4), *, along: Array
     >>> condyle.touch(box, box, [X])["nearest_distance_mm"]
     array([0.5])
     """
-    fixed, mobile = TriMesh.of(a), TriMesh.of(b)
+    fixed, mobile = _meshes(a, b)
     directions = np.reshape(np.asarray(along), (0, 3)) if np.size(along) == 0 else along
-    found = _native.touch(fixed._native, mobile._native, pose, directions, bool(measures),
+    found = _native.touch(fixed._native, mobile._native, pose, directions, bool(measures), centre,
                           progress_of(progress))
     return _answers(TouchRecord, found, fixed, mobile)
 
 
 @overload
-def turn(a: MeshLike, b: MeshLike, axis: ArrayLike, centre: ArrayLike = ..., pose: OneMatrix = ..., *,
+def turn(a: MeshOrPath, b: MeshOrPath, axis: ArrayLike, centre: ArrayLike = ..., pose: OneMatrix = ..., *,
          progress: Progress = ...) -> TurnRecord: ...
 
 
 @overload
-def turn(a: MeshLike, b: MeshLike, axis: ArrayLike, centre: ArrayLike, pose: ManyMatrices, *,
+def turn(a: MeshOrPath, b: MeshOrPath, axis: ArrayLike, centre: ArrayLike, pose: ManyMatrices, *,
          progress: Progress = ...) -> Answers[TurnRecord]: ...
 
 
-def turn(a: MeshLike, b: MeshLike, axis: ArrayLike, centre: ArrayLike = (0, 0, 0), pose: ArrayLike = np.eye(4), *,
+def turn(a: MeshOrPath, b: MeshOrPath, axis: ArrayLike, centre: ArrayLike = (0, 0, 0), pose: ArrayLike = np.eye(4), *,
          progress: Progress = None) -> Union[TurnRecord, Answers[TurnRecord]]:
     """Where `b`, which turns about an axis, meets `a`: first contact both ways and all free intervals of a whole turn.
 
@@ -158,22 +175,22 @@ def turn(a: MeshLike, b: MeshLike, axis: ArrayLike, centre: ArrayLike = (0, 0, 0
     >>> answer.free_at_start, answer.positive.reason
     (True, 'contact')
     """
-    fixed, mobile = TriMesh.of(a), TriMesh.of(b)
+    fixed, mobile = _meshes(a, b)
     found = _native.turn(fixed._native, mobile._native, axis, centre, pose, progress_of(progress))
     return _answers(TurnRecord, found, fixed, mobile)
 
 
 @overload
-def slide(a: MeshLike, b: MeshLike, along: ArrayLike, pose: OneMatrix = ..., *, progress: Progress = ...
+def slide(a: MeshOrPath, b: MeshOrPath, along: ArrayLike, pose: OneMatrix = ..., *, progress: Progress = ...
           ) -> SlideRecord: ...
 
 
 @overload
-def slide(a: MeshLike, b: MeshLike, along: ArrayLike, pose: ManyMatrices, *, progress: Progress = ...
+def slide(a: MeshOrPath, b: MeshOrPath, along: ArrayLike, pose: ManyMatrices, *, progress: Progress = ...
           ) -> Answers[SlideRecord]: ...
 
 
-def slide(a: MeshLike, b: MeshLike, along: ArrayLike, pose: ArrayLike = np.eye(4), *, progress: Progress = None
+def slide(a: MeshOrPath, b: MeshOrPath, along: ArrayLike, pose: ArrayLike = np.eye(4), *, progress: Progress = None
           ) -> Union[SlideRecord, Answers[SlideRecord]]:
     """Where `b`, which slides along a direction, meets `a`: first contact both ways and all positions where it is free.
 
@@ -186,6 +203,6 @@ def slide(a: MeshLike, b: MeshLike, along: ArrayLike, pose: ArrayLike = np.eye(4
     >>> answer.free_at_start, round(answer.positive.moved_mm, 6) > 0
     (True, True)
     """
-    fixed, mobile = TriMesh.of(a), TriMesh.of(b)
+    fixed, mobile = _meshes(a, b)
     found = _native.slide(fixed._native, mobile._native, along, pose, progress_of(progress))
     return _answers(SlideRecord, found, fixed, mobile)

@@ -1,7 +1,9 @@
 #include "condyle/answer/depth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 #include "answer/require_surface.hpp"
 #include "condyle/error.hpp"
@@ -13,9 +15,11 @@
 #include "core/lazy.hpp"
 #include "core/ordered_sums.hpp"
 #include "core/parallel.hpp"
+#include "kinematics/bone_sizes.hpp"
+#include "kinematics/hip_parts.hpp"
+#include "kinematics/surface_notes.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/findings.hpp"
-#include "mesh/surface_pieces.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/winding_number.hpp"
@@ -23,71 +27,67 @@
 namespace condyle {
 namespace {
 
-/// Kept with the mesh, which may be asked at many poses.
-struct KeptSense {
-  core::Lazy<bool> is_inside_out;
+/// Kept with the mesh, which may be asked at many poses; notes by its role, which they name.
+struct KeptSurface {
+  core::Lazy<bool> is_solid;
+  std::array<core::Lazy<std::vector<JointNote>>, 2> notes, unit_notes;
 };
 
-bool is_inside_out(const Mesh& mesh) {
-  return mesh::findings_of(mesh).get<KeptSense>().is_inside_out.get(
-      [&](bool& is) { is = mesh::is_inside_out(mesh); });
+const KeptSurface& kept_with(const Mesh& mesh) {
+  return mesh::findings_of(mesh).get<KeptSurface>();
 }
 
-/// Trees of both bodies are most of the work of one answer: they are made side by side, and stay with the meshes.
-void prepare(const contact::JointContact& bodies) {
-  const auto of = [](const Mesh& mesh) {
-    return [&] {
-      static_cast<void>(mesh.is_closed() && is_inside_out(mesh));
-      static_cast<void>(mesh::tree_of(mesh)->one_vertex_of_each_piece());
-    };
-  };
-  core::parallel_pair(of(bodies.fixed()), of(bodies.mobile()));
+bool is_solid(const Mesh& mesh) {
+  return kept_with(mesh).is_solid.get([&](bool& is) { is = kinematics::is_solid(mesh); });
 }
 
-/// Most surfaces are one piece, which the tree says at less cost.
-std::optional<Index> inverted_piece(const Mesh& mesh) {
-  if (mesh::tree_of(mesh)->one_vertex_of_each_piece().size() < 2) return std::nullopt;
-  return mesh::inverted_piece(mesh);
+/// Lengths are taken as they are: a size, or a head, that suggests another unit. A whole ball is none, nor is what is as large as a bone.
+std::vector<JointNote> unit_notes(const std::string& body, const Mesh& mesh) {
+  constexpr double smallest_whole_bone = 100, fullest_head = 0.9, least_head = 0.4;
+  const double size = mesh::bounds_of_surface(mesh).diagonal();
+  std::optional<double> radius;
+  if (size < smallest_whole_bone)
+    if (const auto& head = kinematics::head_anywhere(mesh);
+        head && head->coverage > least_head && head->coverage < fullest_head)
+      radius = head->fit.sphere.radius;
+  const bool is_small = size < kinematics::shortest_bone;
+  if (!is_small && size <= kinematics::longest_bone && !radius) return {};
+  const std::string unit =
+      kinematics::likely_unit_text(is_small || size > kinematics::longest_bone ? size : 0, radius);
+  if (unit.empty()) return {};
+  return {{JointNoteCode::unlikely_size,
+           body + core::formatted(" is %.4g mm across", size) +
+               (radius ? core::formatted(", with a head of radius %.3g mm", *radius) : "") + unit +
+               " Lengths are taken as mm; --units, or units, says otherwise"}};
 }
 
-/// Whether a mesh has an inside that means one: closed, its normals outwards. Notes why not.
-bool is_solid(const Mesh& mesh, BodyRole role, std::vector<JointNote>& notes) {
-  const std::string body = role == BodyRole::fixed ? "the fixed body" : "the mobile body";
-  if (!mesh.is_closed())
-    notes.push_back({JointNoteCode::open_mesh,
-                     body + " is open and has no inside: the surfaces are answered for, and nothing that is "
-                            "inside of it"});
-  else if (is_inside_out(mesh))
-    notes.push_back({JointNoteCode::inverted_mesh,
-                     body + " is inside out, its volume is negative: nothing counts as inside of it; the "
-                            "repair flip_inverted turns it"});
-  else {
-    if (const auto first = inverted_piece(mesh))
-      notes.push_back({JointNoteCode::inverted_mesh,
-                       core::formatted("%s has a piece that is inside out, that of triangle %u: nothing "
-                                       "counts as inside of that piece",
-                                       body.c_str(), *first)});
-    return true;
-  }
-  return false;
-}
-
-void require_surfaces(const Mesh& fixed, const Mesh& mobile) {
+/// What the answer must be read with. Trees of both bodies are most of the work of one answer: they are made side by side, and stay with the
+/// meshes.
+std::vector<JointNote> notes_of(const Mesh& fixed, const Mesh& mobile, bool units_are_stated) {
   require_surface(fixed, "the fixed body");
   require_surface(mobile, "the mobile body");
+  const std::array<const Mesh*, 2> meshes{&fixed, &mobile};
+  std::array<std::vector<JointNote>, 2> notes;
+  const auto look = [&](std::size_t k) {
+    const std::string body = k == 0 ? "the fixed body" : "the mobile body";
+    const KeptSurface& kept = kept_with(*meshes[k]);
+    static_cast<void>(is_solid(*meshes[k]));
+    // The tree says that most surfaces are one piece at less cost than a table of edges.
+    const bool is_one_piece = mesh::tree_of(*meshes[k])->one_vertex_of_each_piece().size() < 2;
+    notes[k] = kept.notes[k].get(
+        [&](auto& made) { made = kinematics::surface_notes(body, *meshes[k], is_one_piece); });
+    if (units_are_stated) return;
+    const auto& units = kept.unit_notes[k].get([&](auto& made) { made = unit_notes(body, *meshes[k]); });
+    notes[k].insert(notes[k].begin(), units.begin(), units.end());
+  };
+  core::parallel_pair([&] { look(0); }, [&] { look(1); });
+  notes[0].insert(notes[0].end(), notes[1].begin(), notes[1].end());
+  return std::move(notes[0]);
 }
 
 void require_direction(const Vec3& direction, const char* name) {
   if (!direction.allFinite() || direction.isZero(0))
     throw UsageError(std::string(name) + ": a direction is finite and not zero");
-}
-
-std::vector<JointNote> notes_of(const Mesh& fixed, const Mesh& mobile) {
-  require_surfaces(fixed, mobile);
-  std::vector<JointNote> notes;
-  is_solid(fixed, BodyRole::fixed, notes);
-  is_solid(mobile, BodyRole::mobile, notes);
-  return notes;
 }
 
 /// Of the surface of one body, in F; `X_FO` brings the other body's frame there.
@@ -106,13 +106,14 @@ TouchDepth depth_of(BodyRole of, const contact::DeepestPlace& found, const Pose&
 /// Answers one request about two bodies.
 class Touch {
  public:
-  Touch(const contact::JointContact& bodies, const TouchRequest& request)
-      : bodies_(bodies), pair_(contact::body_pair_of(bodies)), answer_{.request = request} {}
+  Touch(const contact::JointContact& bodies, const TouchRequest& request, std::vector<JointNote> notes)
+      : bodies_(bodies),
+        pair_(contact::body_pair_of(bodies)),
+        answer_{.request = request, .notes = std::move(notes)} {}
 
   TouchAnswer run() {
     const Pose& X_FM = answer_.request.X_FM;
-    fixed_is_solid_ = is_solid(bodies_.fixed(), BodyRole::fixed, answer_.notes);
-    mobile_is_solid_ = is_solid(bodies_.mobile(), BodyRole::mobile, answer_.notes);
+    fixed_is_solid_ = is_solid(bodies_.fixed()), mobile_is_solid_ = is_solid(bodies_.mobile());
     answer_.pairs = pair_.pairs(X_FM);
     answer_.in_contact = !answer_.pairs.empty() || pair_.touch(X_FM);
     if (answer_.pairs.empty()) {
@@ -122,6 +123,8 @@ class Touch {
     if (answer_.in_contact) {
       if (answer_.pairs.empty()) answer_.inside = wholly_inside();
       find_deepest();
+      if (answer_.request.centre && fixed_is_solid_ && mobile_is_solid_)
+        answer_.ray_depth_mm = depth_along_rays(*answer_.request.centre);
       if (answer_.request.measures == TouchMeasures::all) measure();
     }
     find_translations();
@@ -174,6 +177,20 @@ class Touch {
     if (!fixed_is_solid_ && !mobile_is_solid_) return;
     answer_.depth_bound_mm = std::max(of_mobile.bound_mm, of_fixed.bound_mm);
     if (answer_.deepest) answer_.deepest->error_mm = *answer_.depth_bound_mm - answer_.deepest->depth_mm;
+  }
+
+  /// About a centre, which becomes the origin of both bodies.
+  double depth_along_rays(const Vec3& centre) const {
+    Pose to_centre = Pose::Identity();
+    to_centre.translation() = -centre;
+    const contact::JointContact about(bodies_.fixed().moved_to(posed(to_centre, bodies_.fixed().vertices())),
+                                      bodies_.mobile().moved_to(posed(to_centre, mobile_in_F())));
+    const contact::RadialContact met = about.radial(Pose::Identity());
+    const auto depths = contact::reliable_radial_depths(
+        met, contact::nearest_distances(about, Pose::Identity(), contact::MeasuredContact(met),
+                                        contact::DistancesOf::vertices_inside));
+    const auto deepest = contact::deepest_of(depths);
+    return deepest ? deepest->vertex.depth_mm : 0;
   }
 
   void measure() {
@@ -250,11 +267,10 @@ class Touch {
 }  // namespace
 
 TouchAnswer answer_touch(const contact::JointContact& bodies, const TouchRequest& request) {
-  require_surfaces(bodies.fixed(), bodies.mobile());
   core::require_rotation(request.X_FM);
   for (const Vec3& along : request.along) require_direction(along, "along");
-  prepare(bodies);
-  return Touch(bodies, request).run();
+  std::vector<JointNote> notes = notes_of(bodies.fixed(), bodies.mobile(), request.units_are_stated);
+  return Touch(bodies, request, std::move(notes)).run();
 }
 
 TouchAnswer answer_touch(const Mesh& fixed, const Mesh& mobile, const TouchRequest& request) {
@@ -263,14 +279,14 @@ TouchAnswer answer_touch(const Mesh& fixed, const Mesh& mobile, const TouchReque
 
 TurnAnswer answer_turn(const Mesh& fixed, const Mesh& mobile, const TurnRequest& request) {
   require_direction(request.axis, "axis");
-  std::vector<JointNote> notes = notes_of(fixed, mobile);
+  std::vector<JointNote> notes = notes_of(fixed, mobile, request.units_are_stated);
   return {request, motion::free_turns(fixed, mobile, AxisFrame(request.centre, request.axis), request.X_FM),
           std::move(notes)};
 }
 
 SlideAnswer answer_slide(const Mesh& fixed, const Mesh& mobile, const SlideRequest& request) {
   require_direction(request.along, "along");
-  std::vector<JointNote> notes = notes_of(fixed, mobile);
+  std::vector<JointNote> notes = notes_of(fixed, mobile, request.units_are_stated);
   return {request, motion::free_slides(fixed, mobile, request.along, request.X_FM), std::move(notes)};
 }
 

@@ -16,9 +16,7 @@ namespace {
 
 using core::formatted;
 
-/// Diagonals of human bones and their cartilages, mm: from a wedge of meniscus to twice a tall man's femur.
-constexpr double shortest_bone = 20, longest_bone = 1000;
-/// ... of what is wide at a knee, an ankle or an elbow: condyles of adults are 70 mm across, and a whole femur in centimetres is 45.
+/// Shortest diagonals of what is wide at a knee, an ankle or an elbow: condyles of adults are 70 mm across, and a whole femur in centimetres is 45.
 constexpr double shortest_at_knee = 55, shortest_at_elbow = 35;
 
 /// Radii of adult femoral and humeral heads, mm. Those of children and small animals lie between these ranges in millimetres, centimetres
@@ -39,20 +37,6 @@ constexpr const char* of_an_animal = " (an animal's? species of [person] says so
 double shortest_of(const Joint& joint) noexcept {
   if (joint.has_head() || !joint.names_its_joint()) return shortest_bone;
   return joint.anatomy == Anatomy::knee ? shortest_at_knee : shortest_at_elbow;
-}
-
-/// "; is it in centimetres?" of a bone of this diagonal or of this head.
-std::string likely_unit_text(double size, std::optional<double> head_radius) {
-  if (head_radius)
-    if (const auto unit = unit_of_head(*head_radius); unit && *unit != LengthUnit::millimetres)
-      return ": is it in " + std::string(plural_of(*unit)) + "?";
-  if (size > longest_bone) return size / 1000 >= shortest_bone ? ": is it in millimetres?" : "";
-  // A whole femur is 400 to 520 mm, half a pelvis 200 to 260.
-  std::string units;
-  for (const LengthUnit unit : {LengthUnit::centimetres, LengthUnit::inches, LengthUnit::metres})
-    if (const double mm = size * mm_per(unit); mm >= 60 && mm <= 600)
-      units += (units.empty() ? "" : " or ") + std::string(plural_of(unit));
-  return units.empty() ? "" : ": is it in " + units + "?";
 }
 
 /// A sphere that may be a socket, wherever it is.
@@ -91,6 +75,19 @@ std::optional<LengthUnit> unit_of_head(double radius) noexcept {
     if (const double mm = radius * mm_per(unit); mm >= smallest_adult_head && mm <= largest_adult_head)
       return unit;
   return std::nullopt;
+}
+
+std::string likely_unit_text(double size, std::optional<double> head_radius) {
+  if (head_radius)
+    if (const auto unit = unit_of_head(*head_radius); unit && *unit != LengthUnit::millimetres)
+      return ": is it in " + std::string(plural_of(*unit)) + "?";
+  if (size > longest_bone) return size / 1000 >= shortest_bone ? ": is it in millimetres?" : "";
+  // A whole femur is 400 to 520 mm, half a pelvis 200 to 260.
+  std::string units;
+  for (const LengthUnit unit : {LengthUnit::centimetres, LengthUnit::inches, LengthUnit::metres})
+    if (const double mm = size * mm_per(unit); mm >= 60 && mm <= 600)
+      units += (units.empty() ? "" : " or ") + std::string(plural_of(unit));
+  return units.empty() ? "" : ": is it in " + units + "?";
 }
 
 SizeNotes size_notes(const Joint& joint, const std::optional<SphericalPatch>& head) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "condyle/fit.hpp"
@@ -11,8 +12,14 @@
 
 namespace condyle::kinematics {
 
+/// Diagonals of human bones and their cartilages, mm: from a wedge of meniscus to twice a tall man's femur.
+inline constexpr double shortest_bone = 20, longest_bone = 1000;
+
 /// The unit in which the radius of a femoral or humeral head would be an adult's; empty if none is.
 std::optional<LengthUnit> unit_of_head(double radius) noexcept;
+
+/// ": is it in centimetres?" of a bone of this diagonal, mm, or with a head of this radius; empty if no other unit is likelier.
+std::string likely_unit_text(double size, std::optional<double> head_radius);
 
 /// Whether the note was made.
 struct SizeNotes {

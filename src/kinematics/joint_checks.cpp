@@ -21,8 +21,8 @@
 #include "kinematics/long_bone_checks.hpp"
 #include "kinematics/loose_head.hpp"
 #include "kinematics/shoulder_checks.hpp"
+#include "kinematics/surface_notes.hpp"
 #include "kinematics/turned_leg.hpp"
-#include "mesh/doubled_triangles.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_pieces.hpp"
@@ -124,27 +124,7 @@ void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
     return;
   }
   notes.add(kinematics::piece_notes(body.name, body.mesh, is_cut));
-  if (!body.mesh.is_closed())
-    notes.add(JointNoteCode::open_mesh,
-              body.name + " is open: one body inside the other would not be detected");
-  else if (mesh::is_inside_out(body.mesh))
-    notes.add(
-        JointNoteCode::inverted_mesh,
-        body.name +
-            " has inverted orientation, its volume is negative: it is mirrored, or needs flip_inverted");
-  else if (const auto first = mesh::inverted_piece(body.mesh))
-    notes.add(JointNoteCode::inverted_mesh,
-              body.name + formatted(" has a piece that is inside out, that of triangle %u: nothing counts as "
-                                    "inside of it",
-                                    *first));
-  // An open mesh has its own note.
-  if (body.mesh.is_closed())
-    if (const mesh::DoubledTriangles doubled = mesh::doubled_triangles(body.mesh); doubled.count > 0)
-      notes.add(JointNoteCode::doubled_triangles,
-                body.name + formatted(" has %zu of its %zu triangles on others, the first %u on %u: its "
-                                      "volume counts twice there",
-                                      doubled.count, body.mesh.triangles().size(), (*doubled.first)[1],
-                                      (*doubled.first)[0]));
+  notes.add(kinematics::surface_notes(body.name, body.mesh));
   const mesh::SelfCrossings& crossings = mesh::self_crossings_of(body.mesh);
   if (crossings.pairs == 0) return;
   double crossing = 0, area = 0;
@@ -435,6 +415,10 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "separate_pieces";
     case JointNoteCode::open_mesh:
       return "open_mesh";
+    case JointNoteCode::mixed_orientation:
+      return "mixed_orientation";
+    case JointNoteCode::two_sided:
+      return "two_sided";
     case JointNoteCode::inverted_mesh:
       return "inverted_mesh";
     case JointNoteCode::self_crossings:

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "condyle/inspect.hpp"
+#include "mesh/enclosed_volume.hpp"
 
 namespace condyle::mesh {
 namespace {
@@ -47,7 +50,8 @@ DoubledTriangles doubled_triangles(const TriMesh& mesh) {
   if (!may_hold_doubles(mesh)) return {};
   const std::vector<Index> first = first_of_same_coordinates(mesh.vertices);
   struct Entry {
-    Triangle corners;
+    Triangle corners;  // ascending
+    bool is_odd;       // and the sense in which the triangle goes round them
     Index number;
     auto operator<=>(const Entry&) const = default;
   };
@@ -56,22 +60,39 @@ DoubledTriangles doubled_triangles(const TriMesh& mesh) {
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     Triangle corners = mesh.triangles[t];
     for (Index& v : corners) v = first[v];
-    // From the smallest on, in the triangle's own sense.
+    if (names_a_vertex_twice(corners)) continue;
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    entries.push_back({corners, t});
+    const bool is_odd = corners[1] > corners[2];
+    if (is_odd) std::swap(corners[1], corners[2]);
+    entries.push_back({corners, is_odd, t});
   }
   std::sort(entries.begin(), entries.end());
   DoubledTriangles found;
-  for (std::size_t i = 1, begin = 0; i < entries.size(); ++i) {
-    if (entries[i].corners != entries[begin].corners) {
-      begin = i;
-      continue;
+  const auto add = [](std::size_t& count, std::optional<std::array<Index, 2>>& first_pair, std::size_t by,
+                      Index earlier, Index later) {
+    count += by;
+    if (!first_pair || later < (*first_pair)[1]) first_pair = {{earlier, later}};
+  };
+  for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
+    std::size_t odd = 0;  // those in the other sense follow
+    for (end = begin; end < entries.size() && entries[end].corners == entries[begin].corners; ++end) {
+      odd += entries[end].is_odd;
+      if (end > begin && entries[end].is_odd == entries[end - 1].is_odd)
+        add(found.count, found.first, 1, entries[end - 1].number, entries[end].number);
     }
-    ++found.count;
-    if (!found.first || entries[i].number < (*found.first)[1])
-      found.first = {{entries[begin].number, entries[i].number}};
+    const std::size_t even = end - begin - odd;
+    found.single += std::max(odd, even) - std::min(odd, even);
+    if (odd == 0 || even == 0) continue;
+    const auto [earlier, later] = std::minmax(entries[begin].number, entries[begin + even].number);
+    add(found.opposite, found.first_opposite, std::min(odd, even), earlier, later);
   }
   return found;
+}
+
+bool is_two_sided(const TriMesh& mesh) {
+  const BoundingBox box = bounds_of_surface(mesh);
+  return std::abs(enclosed_volume(mesh)) <= 1e-12 * std::pow(box.diagonal(), 3) &&
+         doubled_triangles(mesh).is_two_sided();
 }
 
 }  // namespace condyle::mesh

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/predicates.hpp"
+#include "mesh/doubled_triangles.hpp"
 
 namespace condyle::mesh {
 
@@ -54,7 +55,8 @@ bool is_inside_out(const TriMesh& mesh) {
   }
   const double terms = static_cast<double>(mesh.triangles.size()),
                bound = 2 * terms * core::rounding_unit * (9 * half.prod() + sizes);
-  return std::abs(volume) > bound + core::filter_floor ? volume < 0 : enclosed_volume(mesh) < 0;
+  return std::abs(volume) > bound + core::filter_floor ? volume < 0
+                                                       : enclosed_volume(mesh) < 0 && !is_two_sided(mesh);
 }
 
 }  // namespace condyle::mesh

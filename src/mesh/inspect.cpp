@@ -11,6 +11,7 @@
 #include "core/formatted.hpp"
 #include "core/predicates.hpp"
 #include "mesh/disjoint_sets.hpp"
+#include "mesh/doubled_triangles.hpp"
 #include "mesh/edge_table.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
@@ -309,6 +310,7 @@ MeshReport inspect(const Mesh& mesh) {
   measure_surface(edges, report);
   measure_components(edges, fans, report);
   find_nested_components(mesh, report);
+  if (mesh::is_two_sided(mesh)) report.two_sided = mesh::two_sided_text;
   report.likely_unit = likely_unit_of_size(report.bounds.diagonal());
   return report;
 }

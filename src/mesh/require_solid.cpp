@@ -2,6 +2,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
+#include "mesh/doubled_triangles.hpp"
 #include "mesh/enclosed_volume.hpp"
 
 namespace condyle::mesh {
@@ -22,6 +23,7 @@ void require_solid(const Mesh& mesh, const std::string& name) {
     throw MeshError(name + ": " + where +
                     ": the mesh has no inside; intersecting triangle pairs can still be computed");
   }
+  if (is_two_sided(mesh)) throw MeshError(name + ": " + two_sided_text);
   if (is_inside_out(mesh))
     throw MeshError(name +
                     ": inverted orientation, its volume is negative; the repair flip_inverted turns it");

@@ -355,9 +355,60 @@ TEST(Touch, OfSurfacesWithoutAnInsideAnswersForTheSurfaces) {
   EXPECT_EQ(partly.notes[0].code, JointNoteCode::inverted_mesh);
   EXPECT_NE(partly.notes[0].text.find("that of triangle 12"), std::string::npos) << partly.notes[0].text;
   EXPECT_TRUE(touch(joined(solid, flipped(box({-1, -1, -1}, {1, 1, 1}))), solid).notes.empty());
+}
 
-  const TouchAnswer crossed = touch(joined(solid, posed(at({1, 0, 0}), solid)), box({1, -1, -1}, {5, 1, 1}));
-  EXPECT_GT(crossed.overlap->fixed_covered_again_mm3, 1);
+TEST(Touch, HasTheNotesOfAJoint) {
+  using enum JointNoteCode;
+  const TriMesh ball = sphere({0, 0, 0}, 20, 2), beside = box({-1, -1, -1}, {1, 1, 1}),
+                big = box({-60, -60, -60}, {60, 60, 60});
+  TriMesh twice = ball, mixed = ball;
+  twice.triangles.insert(twice.triangles.end(), ball.triangles.begin(), ball.triangles.end());
+  std::swap(mixed.triangles[3][0], mixed.triangles[3][1]);
+  const auto codes = [](const TriMesh& fixed, const TriMesh& mobile, bool units_are_stated = false) {
+    const TouchAnswer answer = answer_touch(fixed, mobile, {.units_are_stated = units_are_stated});
+    const auto same = [&](const std::vector<JointNote>& notes) {
+      return std::equal(
+          notes.begin(), notes.end(), answer.notes.begin(), answer.notes.end(),
+          [](const JointNote& a, const JointNote& b) { return a.code == b.code && a.text == b.text; });
+    };
+    EXPECT_TRUE(same(answer_turn(fixed, mobile, {.units_are_stated = units_are_stated}).notes));
+    EXPECT_TRUE(same(answer_slide(fixed, mobile, {.units_are_stated = units_are_stated}).notes));
+    std::vector<JointNoteCode> found;
+    for (const JointNote& note : answer.notes) found.push_back(note.code);
+    return found;
+  };
+  using Codes = std::vector<JointNoteCode>;
+  EXPECT_EQ(codes(ball, big), Codes());
+  EXPECT_EQ(codes(twice, big), Codes{doubled_triangles});
+  EXPECT_EQ(codes(big, mixed), Codes{mixed_orientation});
+  EXPECT_EQ(codes(joined(ball, flipped(ball)), big), Codes{two_sided});
+  const TouchAnswer without = touch(joined(ball, flipped(ball)), beside);
+  EXPECT_FALSE(without.in_contact || without.depth_bound_mm == 0);
+  EXPECT_NE(without.notes[0].text.find("twice, once in each sense"), std::string::npos)
+      << without.notes[0].text;
+  // A bone of 0.3 "mm" is one in metres, of 15 in centimetres or inches.
+  for (const double by : {0.3, 15.0}) {
+    const TriMesh small = box({0, 0, 0}, Vec3(1, 0.4, 0.3) * by);
+    EXPECT_EQ(codes(big, small), Codes{unlikely_size}) << by;
+    EXPECT_EQ(codes(big, small, true), Codes()) << by;
+  }
+}
+
+TEST(Touch, DepthAlongRaysIsThatOfAJointAboutTheirCentre) {
+  const TriMesh wall = box({40, -120, -50}, {60, -20, 50}), arm = box({-1, -100, -2}, {1, -10, 2});
+  const Joint joint{.name = "arm",
+                    .kind = JointKind::ball,
+                    .side = Side::right,
+                    .fixed = {"wall", wall},
+                    .mobile = {"arm", arm}};
+  const Pose X_FM = pose_at(joint.coordinates(), {Angle::degrees(25), {}, {}});
+  const DepthAnswer depth = answer_depth(joint, {.X_FM = X_FM, .method = DepthMethod::radial});
+  const Pose moved = at({7, 8, 9});
+  const TouchAnswer answer =
+      answer_touch(posed(moved, wall), arm, {.X_FM = Pose(moved * X_FM), .centre = Vec3(7, 8, 9)});
+  EXPECT_NEAR(*answer.ray_depth_mm,
+              contact::deepest_of(std::get<RayDepths>(depth.depths).reliable)->vertex.depth_mm, 1e-9);
+  EXPECT_FALSE(touch(wall, arm).ray_depth_mm);
 }
 
 TEST(Touch, RefusesWhatIsNoPoseDirectionOrMesh) {

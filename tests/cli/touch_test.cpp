@@ -50,7 +50,7 @@ TEST_F(TouchCommand, SaysHowDeepAndHowFarOut) {
   const Ran text = run("touch a.ply b.ply --matrix down.txt --along 0 0 1 --out deep");
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_NE(text.out.find("a.ply and b.ply: in contact"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("deepest: 1.25 mm, at "), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("depth: 1.25 mm to the nearest surface, at "), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("free once b.ply has moved 1.25 mm along (0, 0, 1)"), std::string::npos)
       << text.out;
   // Each file says where it comes from.
@@ -85,6 +85,22 @@ TEST_F(TouchCommand, SaysWhatHasNoInside) {
   EXPECT_NE(open.out.find("in contact"), std::string::npos);
 }
 
+TEST_F(TouchCommand, NamesATwoSidedMesh) {
+  const TriMesh ball = sphere({0, 0, 0}, 20, 2);
+  io::write_mesh(here / "two.ply", joined(ball, flipped(ball)));
+  io::write_mesh(here / "small.ply", sphere({0, 0, 0}, 11, 2));
+  const Ran two = run("touch two.ply small.ply");
+  EXPECT_NE(two.err.find("condyle: note: two_sided: the fixed body: every triangle is there twice"),
+            std::string::npos)
+      << two.err;
+  EXPECT_NE(two.out.find("apart"), std::string::npos);
+  EXPECT_EQ(run("touch two.ply small.ply --strict").exit_code, 4);
+  EXPECT_EQ(run("slide two.ply small.ply --along 1 0 0 --strict").exit_code, 4);
+  io::write_mesh(here / "out.ply", flipped(ball));
+  EXPECT_EQ(json("touch out.ply small.ply --repair flip_inverted --strict")["inside"], "mobile");
+  EXPECT_NE(run("inspect two.ply").out.find("two-sided: every triangle is there twice"), std::string::npos);
+}
+
 TEST_F(TouchCommand, SaysWhatItsVolumeCountsTwice) {
   io::write_mesh(here / "twice.ply",
                  joined(box({-10, -10, -10}, {10, 10, 10}), box({5, -5, -5}, {11, 5, 5})));
@@ -93,7 +109,7 @@ TEST_F(TouchCommand, SaysWhatItsVolumeCountsTwice) {
   EXPECT_EQ(beside.out.find("more than once"), std::string::npos) << beside.out;
   const Ran within = run("touch twice.ply b.ply --pose \"1 0 0 7 0 1 0 0 0 0 1 -14 0 0 0 1\" --measures");
   EXPECT_NE(within.out.find("penetration volume: 346.5 mm3"), std::string::npos) << within.out;
-  EXPECT_NE(within.out.find("twice.ply covers "), std::string::npos) << within.out;
+  EXPECT_NE(within.out.find("of it 157.5 mm3 are counted again: twice.ply"), std::string::npos) << within.out;
 }
 
 TEST_F(TouchCommand, TurnsAndSlides) {

@@ -71,6 +71,9 @@ TEST(RequireSolid, InconsistentWindingIsRefusedByFileAndEdge) {
 }
 
 TEST(RequireSolid, AnInvertedMeshIsRefusedWithItsRepair) {
+  const TriMesh ball = test::sphere({0, 0, 0}, 1, 1);
+  EXPECT_NE(refusal(test::joined(ball, test::flipped(ball))).find("twice, once in each sense"),
+            std::string::npos);
   EXPECT_NE(refusal(test::flipped(test::sphere({0, 0, 0}, 1, 1))).find("flip_inverted"), std::string::npos);
 }
 

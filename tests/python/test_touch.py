@@ -51,6 +51,19 @@ def test_many_poses_are_arrays():
     assert len(condyle.touch(BOX, BOX, np.empty((0, 4, 4)))) == 0
 
 
+def test_files_notes_and_one_spelling_for_one_and_many(tmp_path):
+    for name, (vertices, faces) in {"a.ply": BOX, "b.ply": (CORNERS, FACES + FACES)}.items():
+        condyle.write_mesh(tmp_path / name, condyle.TriMesh(vertices, faces))
+    assert condyle.touch(str(tmp_path / "a.ply"), BOX, moved(0.75)) == condyle.touch(BOX, BOX, moved(0.75))
+    with pytest.warns(condyle.JointWarning, match="doubled_triangles: the mobile body has 12 of its 24"):
+        answer = condyle.touch(tmp_path / "a.ply", tmp_path / "b.ply", moved(0.75, 0.25, 0.125), measures=True)
+    assert answer["mobile_covered_again_mm3"] == pytest.approx(0.25 * 0.75 * 0.875, abs=1e-12)
+    assert answer["deepest.depth_mm"] == answer.deepest.depth_mm and condyle.touch(BOX, BOX, moved(3))["deepest.depth_mm"] is None
+    table = condyle.touch(BOX, BOX, [moved(0.75, 0.1, 0.1), moved(3)]).to_dataframe()
+    assert table["deepest.depth_mm"].isna().tolist() == [False, True] and table["nearest_fixed_mm.x"][1] == 1
+    assert answer.to_dataframe()["deepest.depth_mm"].tolist() == [answer.deepest.depth_mm]
+
+
 def test_a_slide_and_a_turn_are_closed_forms():
     slide = condyle.slide(BOX, BOX, [3, 0, 0], moved(-4, 0.5))
     assert slide.free_at_start and slide.negative.moved_mm is None

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "condyle/answer/case.hpp"
 #include "condyle/contact_measures.hpp"
 #include "condyle/first_contact.hpp"
 #include "condyle/joint.hpp"
@@ -44,6 +45,9 @@ struct DepthRequest {
   std::optional<contact::NormalDepthOptions> rays = {};
   contact::DistancesOf distances = contact::DistancesOf::vertices_inside;
   MeasuresOf measures = MeasuresOf::contact;
+  bool deepest_place = false;  ///< some milliseconds more
+  const motion::RangeOfMotion* limits =
+      nullptr;  ///< limits_of_poses(), by which the pose is judged; null: it is not
 };
 
 /// DepthMethod::reliable and radial: every vertex along its ray, and the depth to read of each. With `radial` that is its radial
@@ -65,11 +69,25 @@ struct ArcDepths {
   contact::TangentialContact contact;
 };
 
+/// The place of one body's surface that is deepest in the other body, in F: how far it is from the nearest point of the other's surface,
+/// which lies along that surface's normal where it is inside a face.
+struct TouchDepth {
+  BodyRole of;            ///< whose surface it is on
+  double depth_mm;        ///< > 0
+  double error_mm;        ///< no place of either surface is deeper by more
+  Vec3 place, exit;       ///< on that surface, and the nearest point of the other one
+  Vec3 normal;            ///< of unit length from place to exit
+  Index triangle, other;  ///< that hold them, of this body and of the other
+};
+
 struct DepthAnswer {
   DepthRequest request;
   contact::ContactMeasures measures;  ///< with DepthMethod::normal nearest distances and points only
   std::variant<RayDepths, ArcDepths, contact::NormalContact> depths;
   std::vector<std::string> caveats = {};  ///< what the depths must be read with, a sentence each
+  std::optional<PoseStanding> standing = {};
+  /// The place of either surface that is deepest in the other body, whatever its vertices, as answer_touch() has it.
+  std::optional<TouchDepth> deepest_place = {};
 
   [[nodiscard]] bool in_contact() const noexcept;
 };
@@ -102,17 +120,9 @@ struct TouchRequest {
   TouchMeasures measures = TouchMeasures::all;
   /// Directions in F, of any length but zero, along which the mobile body is moved until it is free.
   std::vector<Vec3> along = {};
-};
-
-/// The place of one body's surface that is deepest in the other body, in F: how far it is from the nearest point of the other's surface,
-/// which lies along that surface's normal where it is inside a face.
-struct TouchDepth {
-  BodyRole of;            ///< whose surface it is on
-  double depth_mm;        ///< > 0
-  double error_mm;        ///< no place of either surface is deeper by more
-  Vec3 place, exit;       ///< on that surface, and the nearest point of the other one
-  Vec3 normal;            ///< of unit length from place to exit
-  Index triangle, other;  ///< that hold them, of this body and of the other
+  /// A joint centre in F: how deep along rays from there is asked for too.
+  std::optional<Vec3> centre = {};
+  bool units_are_stated = false;  ///< no note asks whether lengths are mm
 };
 
 /// How far the mobile body moves along a direction until it is free.
@@ -127,7 +137,7 @@ struct TouchOverlap {
   /// The space inside both, each point as often as the bodies cover it, and by how much it may be off by rounding.
   std::optional<double> volume_mm3 = {};
   double volume_error_mm3 = 0;
-  /// By how much a body covers the surroundings of the overlap more than once: above 0 if it crosses itself.
+  /// How much of it is counted again because a body covers it more than once: it crosses itself or has triangles twice.
   double fixed_covered_again_mm3 = 0, mobile_covered_again_mm3 = 0;
   std::optional<double> fixed_area_mm2 = {}, mobile_area_mm2 = {};  ///< of its surface inside the other body
   std::optional<Vec3> centroid = {};                                ///< of both areas, in F
@@ -145,6 +155,9 @@ struct TouchAnswer {
   std::optional<TouchDepth> deepest = {};
   /// In contact: no place of either surface is deeper in the other body. Empty if no body has an inside.
   std::optional<double> depth_bound_mm = {};
+  /// About the request's centre, the depth along a ray of the deepest vertex whose ray is a depth, as DepthMethod::radial has it; 0 if there is
+  /// none. Empty without a centre, without contact, and if a body has no inside.
+  std::optional<double> ray_depth_mm = {};
   std::optional<TouchOverlap> overlap = {};  ///< if requested and in contact
   std::vector<FreeTranslation> free = {};    ///< in the order of `along`
   std::vector<JointNote> notes = {};         ///< meshes that have no inside, and what that leaves unknown
@@ -159,6 +172,7 @@ struct TurnRequest {
   Vec3 axis = Vec3::UnitZ(),
        centre = Vec3::Zero();  ///< a direction of any length but zero, and a point on it, in F
   Pose X_FM = Pose::Identity();
+  bool units_are_stated = false;  ///< as TouchRequest has it
 };
 struct TurnAnswer {
   TurnRequest request;
@@ -171,6 +185,7 @@ struct TurnAnswer {
 struct SlideRequest {
   Vec3 along = Vec3::UnitZ();  ///< in F, of any length but zero
   Pose X_FM = Pose::Identity();
+  bool units_are_stated = false;  ///< as TouchRequest has it
 };
 struct SlideAnswer {
   SlideRequest request;

@@ -55,7 +55,7 @@ TouchRecord touch_record(const TouchAnswer& answer) {
     record.deepest = {
         name_of_role(deepest->of), deepest->depth_mm, deepest->error_mm, deepest->place, deepest->exit,
         deepest->normal,           deepest->triangle, deepest->other};
-  record.depth_bound_mm = answer.depth_bound_mm;
+  record.depth_bound_mm = answer.depth_bound_mm, record.ray_depth_mm = answer.ray_depth_mm;
   if (const auto& overlap = answer.overlap) {
     record.volume_mm3 = overlap->volume_mm3;
     record.fixed_area_mm2 = overlap->fixed_area_mm2, record.mobile_area_mm2 = overlap->mobile_area_mm2;

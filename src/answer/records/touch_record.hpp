@@ -31,7 +31,7 @@ struct TouchRecord {
   std::optional<double> nearest_distance_mm = {};
   std::optional<Vec3> nearest_fixed_mm = {}, nearest_mobile_mm = {};
   std::optional<TouchDepthRecord> deepest = {};
-  std::optional<double> depth_bound_mm = {};
+  std::optional<double> depth_bound_mm = {}, ray_depth_mm = {};
   std::optional<double> volume_mm3 = {}, volume_error_mm3 = {};
   std::optional<double> fixed_area_mm2 = {}, mobile_area_mm2 = {};
   std::optional<Vec3> centroid_mm = {};
@@ -121,6 +121,10 @@ inline constexpr auto table<TouchRecord> = record(
     field(
         "depth_bound_mm", &TouchRecord::depth_bound_mm,
         "no place of either surface is deeper than this; null without contact, and if no body has an inside"),
+    field("ray_depth_mm", &TouchRecord::ray_depth_mm,
+          "along rays from `--centre`, as `condyle depth --method radial` has it: of the deepest vertex "
+          "whose ray "
+          "is a depth; null without a centre or contact, and if a body has no inside"),
     field(
         "volume_mm3", &TouchRecord::volume_mm3,
         "of the space inside both; null without contact, without `--measures`, and if a body has no inside"),
@@ -131,10 +135,10 @@ inline constexpr auto table<TouchRecord> = record(
           "of the mobile body's surface inside the fixed body"),
     field("centroid_mm", &TouchRecord::centroid_mm, "of both areas"),
     field("fixed_covered_again_mm3", &TouchRecord::fixed_covered_again_mm3,
-          "how much the fixed body covers more than once about the overlap: above 0 if it crosses itself, "
-          "and the volume "
-          "counts that again"),
-    field("mobile_covered_again_mm3", &TouchRecord::mobile_covered_again_mm3, "likewise the mobile body"),
+          "how much of that volume is counted again because the fixed body covers it more than once: it "
+          "crosses itself or has triangles twice"),
+    field("mobile_covered_again_mm3", &TouchRecord::mobile_covered_again_mm3,
+          "likewise because of the mobile body"),
     field("free", &TouchRecord::free,
           "for each direction of `--along` how far the mobile body moves until it is free, below"),
     field("notes", &TouchRecord::notes, "`code` and `text` of what the answer must be read with"));

@@ -95,6 +95,7 @@ void append(std::string& out, const MeshInspection& mesh) {
     if (finding.count > 0)
       out += fmt::format("  {} {}, the first: {}\n", finding.count, words, text_of(*finding.first));
   });
+  if (!r.two_sided.empty()) out += "  two-sided: " + r.two_sided + "\n";
   const Vec3 low = r.bounds.low, high = r.bounds.high;
   out += fmt::format("  bounds x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g}, z {:.6g} .. {:.6g}\n", shown(low.x()),
                      shown(high.x()), shown(low.y()), shown(high.y()), shown(low.z()), shown(high.z()));
@@ -120,6 +121,7 @@ Json json_of(const MeshInspection& mesh) {
            {"vertices", r.vertices},
            {"triangles", r.triangles},
            {"closed", r.is_closed()},
+           {"two_sided", r.two_sided.empty() ? Json(nullptr) : Json(r.two_sided)},
            {"welded_vertices", mesh.welded_vertices},
            {"split_polygons", mesh.split_polygons},
            {"guessed_polygons", mesh.guessed_polygons}};

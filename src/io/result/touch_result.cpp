@@ -132,24 +132,23 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
     text += fmt::format("  pairs of triangles that meet: {}\n", record.intersecting_pairs);
   if (const auto& deepest = record.deepest)
     text += fmt::format(
-        "  deepest: {:.6g} mm{}, at {} of {}, out along {}\n", deepest->depth_mm,
+        "  depth: {:.6g} mm to the nearest surface{}, at {} of {}, out along {}\n", deepest->depth_mm,
         deepest->error_mm > 1e-6 * deepest->depth_mm
             ? fmt::format(" (no place is deeper by more than {} mm)", core::at_most(deepest->error_mm, 1))
             : "",
         shown(deepest->place_mm), file_in_role(files, deepest->body).string(), shown(deepest->normal));
   else if (record.depth_bound_mm)
-    text +=
-        fmt::format("  deepest: none found; no place of a surface is deeper in the other body than {} mm\n",
-                    core::at_most(*record.depth_bound_mm, 1));
+    text += fmt::format("  depth: none found; no place of a surface is deeper in the other body than {} mm\n",
+                        core::at_most(*record.depth_bound_mm, 1));
+  if (record.ray_depth_mm)
+    text += fmt::format("    {:.6g} mm along rays from the centre\n", *record.ray_depth_mm);
   if (record.volume_mm3)
     text += fmt::format("  penetration volume: {:.6g} mm3, off by {} at most\n", *record.volume_mm3,
                         core::at_most(*record.volume_error_mm3, 1));
   const auto add_again = [&](const std::filesystem::path& path, const std::optional<double>& again) {
     if (again.value_or(0) > 0)
-      text += fmt::format(
-          "    {} covers {:.3g} mm3 about the overlap more than once, where it crosses itself or has a "
-          "component in another: the volume may count space there twice\n",
-          path.string(), *again);
+      text += fmt::format("    of it {:.6g} mm3 are counted again: {} covers them more than once\n", *again,
+                          path.string());
   };
   add_again(files.fixed.path, record.fixed_covered_again_mm3);
   add_again(files.mobile.path, record.mobile_covered_again_mm3);
