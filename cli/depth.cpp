@@ -96,7 +96,11 @@ void depth_command(const DepthArguments& options, const CLI::App& command) {
                                    .notes = noted(loaded, options.strictness),
                                    .provenance = &from};
   io::add_other_files(from, read);
-  const DepthAnswer answer = answered(options, [&] { return answer_depth(joint, request); });
+  const DepthAnswer answer = answered(options, [&] {
+    const auto limits = limits_of_poses(loaded.joint);
+    request.limits = limits.get(), request.deepest_place = true;
+    return answer_depth(joint, request);
+  });
   const io::DepthResult result = io::depth_result(question, answer);
   if (!options.out.empty())
     say_written(io::write_depth(options.out, question, result, {options.vtp_encoding, options.vertices}));

@@ -39,7 +39,11 @@ void load_command(const LoadArguments& options, const CLI::App& command) {
   const contact::ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
                                        io::elastic_options(contact, surfaces, loaded));
   io::add_other_files(from, read);
-  const LoadAnswer answer = answered(options, [&] { return answer_load(layers, request); });
+  const LoadAnswer answer = answered(options, [&] {
+    const auto limits = limits_of_poses(joint);
+    request.limits = limits.get();
+    return answer_load(layers, request);
+  });
   note_contact(answer.notes, loaded, options.strictness);
   if (!answer.carries_load()) throw UsageError("--force: " + contact::reason_of(*answer.balanced));
   if (!options.out.empty()) say_written(io::write_load(options.out, question, answer, options.vtp_encoding));

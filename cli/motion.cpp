@@ -23,7 +23,7 @@ struct MotionArguments : JointArguments {
   std::string model_joint;  ///< of a model in place of a joint file
   std::optional<Side> side;
   ModelOptions model;
-  bool with_pressure = false, between = false;
+  bool with_pressure = false, between = false, to_limits = false;
   io::ContactChanges contact;
   BalanceArguments balance;
   std::vector<double> cycle;
@@ -84,8 +84,9 @@ void motion_command(const MotionArguments& options, const CLI::App& command) {
   const io::ContactEntry contact =
       io::motion_contact(contact_of(options.contact, loaded.report.file, with_pressure), with_pressure);
   const io::ContactSurfaces surfaces = io::surfaces_of(contact, loaded.joint);
-  const io::MotionQuestion question{
-      loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
+  const io::MotionQuestion question{loaded,  motion,           surfaces,
+                                    contact, with_pressure,    noted(loaded, options.strictness),
+                                    &from,   options.to_limits};
   const MotionAnswer answer = io::name_joint_file(options.joint, [&] {
     const io::MotionOfJoint of_joint(question, std::move(request));
     // Frames take long: notes that are errors end the command before them.
@@ -144,6 +145,9 @@ void add_motion(CLI::App& app) {
       ->excludes(command->get_option("--force"))
       ->excludes(command->get_option("--moment"))
       ->option_text("FILE");
+  command->add_flag_callback(
+      "--to-limits", [options] { options->to_limits = true; },
+      "Compute how far each frame is from the nearest limit, one angle turning alone: some 10 ms a frame");
   auto* between = command->add_flag_callback(
       "--between", [options] { options->between = true; },
       "Also find contact between the samples, within bounds, if the centre moves. About a held centre it "
@@ -175,8 +179,8 @@ void add_motion(CLI::App& app) {
   group_help(*command,
              {{"Most used", {"--motion", "--load", "--force", "--out", "--json"}},
               {"Question",
-               {"--set", "--between", "--loads", "--moment", "--force-frame", "--along", "--free-rotations",
-                "--ligaments"}},
+               {"--set", "--to-limits", "--between", "--loads", "--moment", "--force-frame", "--along",
+                "--free-rotations", "--ligaments"}},
               {"Models", of_models},
               {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
               {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});

@@ -6,6 +6,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
+#include "json_object.hpp"
 #include "vertex_gaps.hpp"
 
 /// Every vertex, at one pose or many.
@@ -110,9 +111,14 @@ py::tuple measures(const JointHandle& handle, const py::object& poses, const py:
 
 /// As `condyle depth` answers by default: of each pose both bodies, and the caveats.
 py::tuple reliable(const JointHandle& handle, const py::object& poses, const py::object& progress) {
-  return answers(handle, poses, progress, {.measures = MeasuresOf::distances_only}, [](DepthAnswer&& answer) {
+  const DepthRequest request{.measures = MeasuresOf::distances_only,
+                             .deepest_place = true,
+                             .limits = without_lock([&] { return handle.limits(); })};
+  return answers(handle, poses, progress, request, [&](DepthAnswer&& answer) {
     contact::ReliableContact& found = std::get<RayDepths>(answer.depths).reliable;
-    return py::make_tuple(optional_dict(found.mobile), optional_dict(found.fixed), py::cast(answer.caveats));
+    return py::make_tuple(optional_dict(found.mobile), optional_dict(found.fixed), py::cast(answer.caveats),
+                          answer.deepest_place ? answer.deepest_place->depth_mm : 0,
+                          standing_of(answer.standing, handle.joint().anatomy));
   });
 }
 

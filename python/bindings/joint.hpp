@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
+#include "condyle/answer/case.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/io/joint_file.hpp"
+#include "core/lazy.hpp"
 
 namespace condyle::python {
 
@@ -11,9 +14,14 @@ namespace condyle::python {
 struct JointHandle {
   io::LoadedJoint loaded;
   contact::JointContact contact;
+  core::Lazy<std::shared_ptr<const motion::RangeOfMotion>> kept_limits = {};
 
   explicit JointHandle(io::LoadedJoint from) : loaded(std::move(from)), contact(loaded.joint) {}
   const Joint& joint() const noexcept { return loaded.joint; }
+  /// By which poses are judged.
+  const motion::RangeOfMotion* limits() const {
+    return kept_limits.get([&](auto& made) { made = limits_of_poses(joint()); }).get();
+  }
 };
 
 /// One of the three angles, by its position.

@@ -5,6 +5,7 @@
 #include "condyle/answer.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
+#include "json_object.hpp"
 #include "mesh/require_solid.hpp"
 #include "surface_contact.hpp"
 
@@ -94,7 +95,8 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const contac
   const MotionRequest request{.X_FM = X_FM,
                               .between = BetweenFrames::never,
                               .casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile,
-                              .rays = rays};
+                              .rays = rays,
+                              .limits = handle.limits()};
   const auto found = with_progress(progress, [&](const Control& control) {
     return answer_motion(handle.contact, elastic, request, control);
   });
@@ -102,7 +104,8 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const contac
   const Mesh& caster =
       elastic ? (casts_fixed ? elastic->fixed() : elastic->mobile()) : (casts_fixed ? fixed : mobile);
   py::list answers;
-  for (const std::optional<motion::FrameContact>& frame : found->frames) {
+  for (std::size_t i = 0; i < found->frames.size(); ++i) {
+    const std::optional<motion::FrameContact>& frame = found->frames[i];
     if (!frame) {
       answers.append(py::none());
       continue;
@@ -116,6 +119,8 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const contac
     dict["force_n"] = array_of(frame->on_mobile.force_n);
     dict["moment_nmm"] = array_of(frame->on_mobile.moment_nmm);
     dict["cut_off_by_reach"] = frame->cut_off_by_reach;
+    dict["standing"] =
+        standing_of(found->standings.empty() ? std::nullopt : found->standings[i], handle.joint().anatomy);
     answers.append(dict);
   }
   return py::make_tuple(answers, notes_of(found->notes));

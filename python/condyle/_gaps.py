@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ._answer import Columns, at_most, html_of
 from ._mesh import TriMesh
+from ._pose_standing import PoseStanding
 from ._words import Way
 
 if TYPE_CHECKING:
@@ -131,14 +132,18 @@ class Gaps(BothBodies[VertexGaps]):
 class Depths(BothBodies[VertexDepths]):
     """The depths to read of every vertex: `mobile` and `fixed` are :class:`VertexDepths`.
 
-    `caveats` are sentences that they must be read with, as for a pose that translates.
+    `caveats` are sentences that they must be read with, as for a pose that translates. `surface_depth_mm` is how deep the deepest place of
+    either surface is, to the nearest point of the other one, as :func:`condyle.touch` has it; 0 if none is inside. `standing` says what the pose
+    is to the limits of the joint: None if no contact of its meshes ends a motion.
     """
 
     caveats: tuple[str, ...] = ()
+    surface_depth_mm: float = 0.0
+    standing: Optional[PoseStanding] = None
 
     @property
     def max_depth_mm(self) -> float:
-        """The depth that `condyle depth` leads with, of either body's deepest vertex; 0 if no vertex is inside.
+        """The depth along a ray or an arc that `condyle depth` reports, of either body's deepest vertex; 0 if no vertex is inside.
 
         NaN if vertices are inside and neither ray nor arc is a depth of any.
         """
@@ -147,7 +152,8 @@ class Depths(BothBodies[VertexDepths]):
                    default=float("nan") if any(body.without for body in bodies) else 0.0)
 
     def __repr__(self) -> str:
-        return f"Depths({self.max_depth_mm:.3f} mm; mobile={self.mobile!r}, fixed={self.fixed!r})"
+        state = "" if self.standing is None else f"{self.standing.state}; "
+        return f"Depths({state}{self.surface_depth_mm:.3f} mm to the surface, {self.max_depth_mm:.3f} mm by ray or arc; mobile={self.mobile!r}, fixed={self.fixed!r})"
 
 
 @dataclass(frozen=True)
@@ -186,8 +192,8 @@ class ContactMeasures:
     volume_error_mm3 : float
         A bound on what the volume is off by rounding.
     mobile_covered_again_mm3, fixed_covered_again_mm3 : float
-        By how much the body covers the surroundings of the overlap more than once: above 0 where it crosses itself or
-        has a component in another, and the volume may count space there twice.
+        How much of that volume is counted again because the body covers it more than once: it crosses itself, has triangles
+        twice or a component in another.
     centroid : (3,) float64 or None
         Centroid of the patches of both, in F.
     """
@@ -218,7 +224,7 @@ class ContactMeasures:
             rows.append(("overlap", f"{self.volume_mm3:.6g} mm3, to within {at_most(self.volume_error_mm3)}"))
         for name, again in (("mobile", self.mobile_covered_again_mm3), ("fixed", self.fixed_covered_again_mm3)):
             if again > 0:
-                rows.append((f"{name} covers again", f"{again:.3g} mm3 about the overlap: it may count twice"))
+                rows.append((f"{name} counted again", f"{again:.6g} mm3 of it"))
         return rows
 
     def __repr__(self) -> str:

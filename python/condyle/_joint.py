@@ -27,6 +27,7 @@ from ._motion_contact import ContactFrames, contact_along
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
 from ._placed_implant import PlacedImplant, placed_implant
+from ._pose_standing import PoseStanding
 from ._poses import ManyPosesLike, OnePoseLike, PoseLike
 from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
@@ -327,8 +328,9 @@ class Joint(DescribedJoint):
         joint, poses = self._asked_at(pose)
         is_one, found = _native.reliable_depths(joint, poses, progress_of(progress))
         answers = [Depths(of_vertices(VertexDepths, mobile, self._mobile),
-                          of_vertices(VertexDepths, fixed, self._fixed), tuple(caveats))
-                   for mobile, fixed, caveats in found]
+                          of_vertices(VertexDepths, fixed, self._fixed), tuple(caveats), surface_mm,
+                          None if standing is None else PoseStanding.of(standing))
+                   for mobile, fixed, caveats, surface_mm, standing in found]
         return answers[0] if is_one else answers
 
     @overload

@@ -12,6 +12,7 @@ from . import _native
 from ._contact_checks import ContactNote, reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
+from ._pose_standing import PoseStanding
 from ._poses import Pose
 from ._pressure import ElasticContact, used
 from ._surface_contact import SurfaceContact, surface_of
@@ -38,6 +39,9 @@ class FrameContact:
     cut_off_by_reach : int
         Rays that a longer reach would find in contact; looked for where the largest depth is beyond half of the reach, or no
         ray ends in contact though the bodies meet or one is open.
+    standing : PoseStanding or None
+        What the pose is to the limits of the joint; None if no contact of its meshes ends a motion. Its `nearest_limit` is known of a
+        frame that is at one; of any pose by `joint.depths(pose).standing`.
     """
 
     X_FM: Pose
@@ -48,9 +52,10 @@ class FrameContact:
     force_n: NDArray[np.float64]
     moment_nmm: NDArray[np.float64]
     cut_off_by_reach: int
+    standing: Optional[PoseStanding]
 
     def __repr__(self) -> str:
-        return f"FrameContact({'in contact' if self.in_contact else 'apart'}; {self.surface!r})"
+        return f"FrameContact({self.standing.state if self.standing else 'in contact' if self.in_contact else 'apart'}; {self.surface!r})"
 
 
 class ContactFrames(list[Optional[FrameContact]]):
@@ -77,6 +82,7 @@ def contact_along(joint: DescribedJoint, poses: ArrayLike, surfaces: Optional[El
     for frame in found:
         if frame is not None:
             frame["surface"] = surface_of(frame["surface"])
+            frame["standing"] = None if frame["standing"] is None else PoseStanding.of(frame["standing"])
     frames = ContactFrames(None if frame is None else FrameContact(**frame) for frame in found)
     frames.notes = reported(notes)
     return frames

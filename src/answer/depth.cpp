@@ -143,6 +143,12 @@ DepthAnswer answer_depth(const contact::JointContact& bodies, const Joint& joint
       break;
   }
   add_cut_caveats(answer, joint);
+  if (request.deepest_place && answer.in_contact())
+    answer.deepest_place =
+        answer_touch(bodies, {.X_FM = request.X_FM, .measures = TouchMeasures::depth}).deepest;
+  if (request.limits)
+    answer.standing =
+        pose_standing(*request.limits, *answer.request.pose, request.X_FM.translation(), answer.in_contact());
   return answer;
 }
 

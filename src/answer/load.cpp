@@ -30,6 +30,10 @@ LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadReques
   answer.cut_off_by_reach = surfaces.cut_off_by_reach(answer.X_FM);
   answer.refined_force_n = surfaces.refined_force_n(answer.X_FM);
   motion::add_new(answer.notes, motion::check_contact(answer.contact, request.names));
+  if (request.limits)
+    answer.standing = pose_standing(
+        *request.limits, angles_at(request.limits->coordinates(), answer.X_FM), answer.X_FM.translation(),
+        !contact::JointContact(surfaces.fixed(), surfaces.mobile()).pairs(answer.X_FM).empty());
   return answer;
 }
 

@@ -6,6 +6,7 @@
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/parallel.hpp"
 
 namespace condyle {
 namespace {
@@ -136,6 +137,19 @@ std::vector<LigamentAlong> ligaments_of(const MotionRequest& request, SpeedsFrom
   return ligaments_along(request.ligaments, X_FM);
 }
 
+std::vector<std::optional<PoseStanding>> standings_of(
+    const MotionRequest& request, const std::vector<std::optional<motion::FrameContact>>& frames) {
+  const motion::RangeOfMotion& limits = *request.limits;
+  std::vector<std::optional<PoseStanding>> standings(frames.size());
+  core::parallel_chunks(frames.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      if (const auto& frame = frames[i])
+        standings[i] = pose_standing(limits, angles_at(limits.coordinates(), frame->X_FM),
+                                     frame->X_FM.translation(), frame->in_contact, request.nearest_limits);
+  });
+  return standings;
+}
+
 void require_count(const char* what, std::size_t count, std::size_t frames) {
   if (count > 0 && count != frames)
     throw UsageError(core::formatted("%s: %zu for %zu frames", what, count, frames));
@@ -198,6 +212,7 @@ std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
       request.casting, control);
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
+  if (request.limits) answer.standings = standings_of(request, answer.frames);
   motion::add_new(answer.notes, motion::check_motion(answer.frames, request.names));
   answer.speeds_from = speeds_from(request);
   answer.ligaments = ligaments_of(request, answer.speeds_from, X_FM);

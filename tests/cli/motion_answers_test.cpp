@@ -204,17 +204,23 @@ TEST_F(Motion, LoadsThatNothingWouldAskAreRefused) {
 TEST_F(Motion, WithoutContactReportsTheSmallestGap) {
   // The end of the shank passes the post's edge, (40, -80), at 15 and at 20 degrees: nearest at the second time.
   write("swing.csv", "time,flexion_deg\n2,0\n2.5,10\n3,5\n");
-  const Ran text = run("motion shank.toml --motion swing.csv --out out");
+  const Ran text = run("motion shank.toml --motion swing.csv --to-limits --out out");
   ASSERT_EQ(text.exit_code, 0) << text.err;
   const NumberTable curves = csv_of(folder / "out/curves.csv");
   const double gap = curves.rows[1][curves.column("smallest_gap_mm")];
   for (const auto& row : curves.rows) EXPECT_GE(row[curves.column("smallest_gap_mm")], gap);
   EXPECT_GT(gap, 0);
-  EXPECT_NE(text.out.find(fmt::format("0 frames in contact\n  smallest gap {:.4g} mm at 2.5 s\n", gap)),
+  EXPECT_NE(text.out.find(fmt::format(
+                "0 frames in contact\n  smallest clearance {:.4g} mm at 2.5 s, of surfaces", gap)),
             text.out.npos)
       << text.out;
   const Json json = Json::parse(text_of(folder / "out/motion.json"));
   EXPECT_EQ(json["smallest_gap_mm"], (Json{{"value", gap}, {"time_s", 2.5}}));
+  EXPECT_EQ(json["smallest_clearance_mm"], json["smallest_gap_mm"]);
+  EXPECT_EQ(json["states"]["free"], 3);
+  EXPECT_EQ(json["least_to_limit_deg"]["time_s"], 2.5);
+  const std::size_t left = curves.column("to_limit_deg");
+  EXPECT_NEAR(curves.rows[0][left] - curves.rows[2][left], 5, 1e-9);
   for (const char* key : {"largest_area_mm2", "largest_depth_mm"})
     EXPECT_EQ(json[key], (Json{{"value", 0.0}, {"time_s", nullptr}})) << key;
   // Nothing is known of frames that are gaps; contact has no gap.
@@ -224,6 +230,8 @@ TEST_F(Motion, WithoutContactReportsTheSmallestGap) {
   write("on.csv", "time,flexion_deg\n0,0\n1,30\n");
   const Json on = Json::parse(run("motion shank.toml --motion on.csv --json").out);
   EXPECT_EQ(on["smallest_gap_mm"], (Json{{"value", 0.0}, {"time_s", 1.0}}));
+  EXPECT_EQ(on["states"]["contact"], 1);
+  EXPECT_FALSE(on["state_unknown_why"].is_null());
   EXPECT_EQ(run("motion shank.toml --motion on.csv").out.find("smallest gap"), std::string::npos);
 }
 

@@ -10,6 +10,6 @@ def test_the_program_of_the_readme_runs(source, capsys):
     printed = capsys.readouterr().out
     assert printed == code.splitlines()[-1].partition("  # ")[2] + "\n"
     # One joint and one pose, so one depth.
-    depth, = re.findall(r"^  depth: ([0-9.]+) mm along the ray", readme, re.MULTILINE)
-    in_cpp, = re.findall(r"^It prints `depth ([0-9.]+) mm, ", readme, re.MULTILINE)
+    depth, = re.findall(r"^  depth: ([0-9.]+) mm to the nearest surface", readme, re.MULTILINE)
+    in_cpp, = re.findall(r"^It prints `depth ([0-9.]+) mm to the surface, ", readme, re.MULTILINE)
     assert printed.startswith(f"{depth} mm, ") and f"{float(depth):.2f}" == in_cpp

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/answer/case.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/pressure.hpp"
 
@@ -19,6 +20,8 @@ struct LoadRequest {
   std::optional<contact::Load> load = {};
   contact::BalanceOptions balance = {};
   motion::BodyNames names = {};  ///< as notes call the bodies
+  const motion::RangeOfMotion* limits =
+      nullptr;  ///< limits_of_poses(), by which the pose is judged; null: it is not
 };
 
 /// The pose requested, or the balanced one.
@@ -31,6 +34,7 @@ struct LoadAnswer {
   std::vector<LigamentAlong> ligaments = {};           ///< those of the request's balance, at X_FM
   std::vector<motion::ContactNote> notes = {};         ///< what looks wrong with layers, load and contact
   std::vector<std::string> caveats = {};               ///< what an elastic foundation leaves out
+  std::optional<PoseStanding> standing = {};           ///< of X_FM
 
   /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are
   /// those at which the search stopped, and the numbers mean nothing.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/answer/case.hpp"
 #include "condyle/control.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/motion_contact.hpp"
@@ -51,6 +52,9 @@ struct MotionRequest {
   /// How the mobile body moves in each frame, if it was recorded. Only what ligaments damp needs it; it is used if every frame that has a pose has it
   /// too and no load moves the frames.
   std::vector<std::optional<RelativeMotion>> motions = {};
+  const motion::RangeOfMotion* limits = nullptr;  ///< limits_of_poses(), which judge frames; null: none does
+  /// Always: how far each frame is from the nearest limit, some 10 ms a frame.
+  FindNearest nearest_limits = FindNearest::at_limits;
 
   [[nodiscard]] bool has_load() const noexcept { return load || !loads.empty(); }
 };
@@ -68,6 +72,7 @@ struct MotionAnswer {
   /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
   /// ElasticContact::refined_force_n(). Empty without pressure.
   std::optional<double> refined_largest_force_n = {};
+  std::vector<std::optional<PoseStanding>> standings = {};  ///< of the frames, if limits are given
   std::vector<LigamentAlong> ligaments = {};  ///< in the poses of the frames, balanced if a load was
   SpeedsFrom speeds_from = SpeedsFrom::none;
   std::vector<motion::ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion

@@ -24,12 +24,14 @@ class Quantity(NamedTuple):
     columns: Tuple[Tuple[str, str], ...]
 
 
-QuantityName = Literal["area", "depth", "pressure", "force", "gap"]
+QuantityName = Literal["area", "depth", "pressure", "force", "limit", "clearance", "gap"]
 QUANTITIES: Dict[QuantityName, Quantity] = {
     "area": Quantity("contact area (mm²)", (("area_mm2", ""),)),
     "depth": Quantity("depth (mm)", (("max_depth_mm", "largest"), ("mean_depth_mm", "mean"))),
     "pressure": Quantity("pressure (MPa)", (("max_pressure_mpa", "largest"), ("mean_pressure_mpa", "mean"))),
     "force": Quantity("contact force (N)", (("force_n", ""),)),
+    "limit": Quantity("to the nearest limit (°)", (("to_limit_deg", ""),)),
+    "clearance": Quantity("clearance (mm)", (("clearance_mm", ""),)),
     "gap": Quantity("smallest gap (mm)", (("smallest_gap_mm", ""),)),
 }
 STYLES = ("-", "--", ":")
@@ -114,8 +116,8 @@ def curve(table: Table, quantity: QuantityName, *, ax: Optional[Axes] = None, al
         Columns by name: what `files.read_curves` gives of `curves.csv` or `cycle.csv`, what `table_of` gives of
         answers, a pandas DataFrame, or arrays in a dict. NaN is a gap, and the line is broken there.
     quantity
-        `"area"`, `"depth"` (largest and mean), `"pressure"` (largest and mean), `"force"` (length of the vector) or
-        `"gap"`.
+        `"area"`, `"depth"` (largest and mean), `"pressure"` (largest and mean), `"force"` (length of the vector), `"limit"` (degrees to
+        the nearest), `"clearance"` (of surfaces whose contact ends a motion) or `"gap"` (of any).
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`. Given again, a second motion is
         drawn over the first.
@@ -188,15 +190,19 @@ def cycles(tables: Sequence[Table], quantity: QuantityName, *, ax: Optional[Axes
 
 def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = None, reference: Optional[Table] = None,
            reference_label: str = "reference") -> Figure:
-    """Area, depth, pressure and force of one motion, as far as there are, or the gap if nothing touches: a figure, which it returns.
+    """Area, depth, pressure and force of one motion, as far as there are, or clearance or gap if nothing touches, and the degrees
+    left to the nearest limit: a figure, which it returns.
 
     Arguments are those of `curve`. It is as wide as a page, with one quantity as a column.
     """
     import matplotlib.pyplot as plt
 
-    shown: List[QuantityName] = [name for name in QUANTITIES if name != "gap" and has(table, name)]
-    if has(table, "gap") and not any((column(table, name) > 0).any() for each in shown for name, _ in QUANTITIES[each].columns):
-        shown = ["gap"]
+    free: List[QuantityName] = ["limit", "clearance", "gap"]
+    shown: List[QuantityName] = [name for name in QUANTITIES if name not in free and has(table, name)]
+    if not any((column(table, name) > 0).any() for each in shown for name, _ in QUANTITIES[each].columns):
+        shown = [name for name in (free[:2] if has(table, "clearance") else free[2:]) if has(table, name)] or shown
+    elif has(table, "limit") and (column(table, "to_limit_deg") > 0).any():
+        shown.append("limit")
     if not shown:
         raise UsageError(f"no contact in this table: it has {', '.join(table)}")
     columns = min(2, len(shown))
@@ -211,5 +217,5 @@ def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = 
             known = None if reference is None or not has(reference, shown[i]) else reference
             curve(table, shown[i], ax=ax, along=along, label=label, reference=known, reference_label=reference_label)
             if columns > 1:
-                ax.text(-0.01, 1.03, "abcd"[i], transform=ax.transAxes, fontweight="bold", ha="right")
+                ax.text(-0.01, 1.03, "abcde"[i], transform=ax.transAxes, fontweight="bold", ha="right")
     return figure

@@ -10,7 +10,11 @@ ContactEntry motion_contact(ContactEntry entry, bool with_pressure) {
 }
 
 MotionOfJoint::MotionOfJoint(const MotionQuestion& question, MotionRequest request)
-    : surfaces_(question.surfaces), request_(std::move(request)), notes_(question.motion.notes) {
+    : joint_(question.joint.joint),
+      surfaces_(question.surfaces),
+      request_(std::move(request)),
+      to_limits_(question.to_limits),
+      notes_(question.motion.notes) {
   request_.names = {surfaces_.fixed.name, surfaces_.mobile.name};
   request_.casting = question.contact.casting == contact::Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
   request_.rays = question.contact.rays;
@@ -23,7 +27,11 @@ MotionOfJoint::MotionOfJoint(const MotionQuestion& question, MotionRequest reque
 
 std::optional<MotionAnswer> MotionOfJoint::answer(const Control& control) const {
   const contact::JointContact bodies(surfaces_.fixed.mesh, surfaces_.mobile.mesh);
-  auto answer = answer_motion(bodies, layers(), request_, control);
+  const auto limits = limits_of_poses(joint_);
+  MotionRequest request = request_;
+  request.limits = limits.get();
+  if (to_limits_) request.nearest_limits = FindNearest::always;
+  auto answer = answer_motion(bodies, layers(), request, control);
   if (!answer) return std::nullopt;
   std::vector<motion::ContactNote> notes = notes_;
   motion::add_new(notes, std::move(answer->notes));

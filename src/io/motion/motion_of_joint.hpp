@@ -25,8 +25,10 @@ class MotionOfJoint {
  private:
   const contact::ElasticContact* layers() const noexcept { return layers_ ? &*layers_ : nullptr; }
 
+  const Joint& joint_;
   const ContactSurfaces& surfaces_;
   MotionRequest request_;
+  bool to_limits_;
   std::optional<contact::ElasticContact> layers_;
   std::vector<motion::ContactNote> notes_;
 };

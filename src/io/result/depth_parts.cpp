@@ -7,6 +7,7 @@
 #include "io/file/format_version.hpp"
 #include "io/result/movement_words.hpp"
 #include "io/result/parameters.hpp"
+#include "io/result/pose_state.hpp"
 
 namespace condyle::io {
 namespace {
@@ -37,6 +38,14 @@ Json depth_header(const DepthQuestion& question, const DepthAnswer& answer, cons
     json["translation_mm"] = numbers(pose.translation_mm);
     json["translation_frame"] = name_of(joint.translation_frame);
   }
+  add_standing(json, answer.standing, joint.anatomy);
+  json["deepest_place"] = nullptr;
+  if (const auto& deepest = answer.deepest_place)
+    json["deepest_place"] = {{"body", deepest->of == BodyRole::fixed ? "fixed" : "mobile"},
+                             {"depth_mm", deepest->depth_mm},
+                             {"error_mm", deepest->error_mm},
+                             {"place_mm", numbers(question.frame().fixed_point(deepest->place))},
+                             {"exit_mm", numbers(question.frame().fixed_point(deepest->exit))}};
   return json;
 }
 
@@ -51,8 +60,19 @@ std::string depth_headline(const DepthQuestion& question, const DepthAnswer& ans
                         pose.translation_mm.z());
   text += whose_text(joint) + "\n" + parameters_text(joint);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
-  return text + fmt::format("  {}; {} intersecting triangle pairs\n",
-                            answer.in_contact() ? "in contact" : "free", pairs);
+  text += fmt::format("  {}; {} intersecting triangle pairs\n",
+                      answer.standing       ? state_text(*answer.standing, joint.anatomy)
+                      : answer.in_contact() ? "in contact"
+                                            : "free",
+                      pairs);
+  if (answer.standing)
+    if (const std::string left = to_limit_text(*answer.standing, joint.anatomy); !left.empty())
+      text += "  " + left + "\n";
+  if (const auto& deepest = answer.deepest_place)
+    text += fmt::format("  depth: {:.3f} mm to the nearest surface, {} at {}\n", deepest->depth_mm,
+                        (deepest->of == BodyRole::fixed ? joint.fixed : joint.mobile).name,
+                        place_text(question.frame().fixed_point(deepest->place)).substr(3));
+  return text;
 }
 
 std::string inside_line(const Body& body, std::size_t inside, std::size_t on_surface) {
@@ -84,11 +104,8 @@ std::string measures_text(const DepthQuestion& question, const contact::ContactM
                         core::rounded(*measures.volume_mm3, 4), core::at_most(measures.volume_error_mm3, 1));
   const auto add_again = [&](const Body& body, double covered_again_mm3) {
     if (covered_again_mm3 > 0)
-      text += fmt::format(
-          "    {} covers {:.3g} mm3 about the overlap more than once, where it crosses itself or has a "
-          "component in "
-          "another: the volume may count space there twice\n",
-          body.name, covered_again_mm3);
+      text += fmt::format("    of it {:.4g} mm3 are counted again: {} covers them more than once\n",
+                          covered_again_mm3, body.name);
   };
   add_again(question.joint.mobile, measures.mobile_covered_again_mm3);
   add_again(question.joint.fixed, measures.fixed_covered_again_mm3);

@@ -12,6 +12,7 @@
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
+#include "io/result/pose_state.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/scope_text.hpp"
@@ -108,6 +109,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   text += io::parameters_text(joint);
   text += io::contact_caveats_text(question.contact, question.surfaces, true);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
+  if (answer.standing) text += fmt::format("  {}\n", state_text(*answer.standing, joint.anatomy));
   if (answer.balanced) {
     const Vec3 moved = answer.X_FM.translation() - question.X_FM.translation();
     if (answer.balanced->outcome == contact::BalanceOutcome::balanced)
@@ -173,6 +175,7 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
     json["fixed_regions"] = regions_json(question.contact, question.surfaces.fixed, answer.contact.fixed);
     json["mobile_regions"] = regions_json(question.contact, question.surfaces.mobile, answer.contact.mobile);
   }
+  add_standing(json, answer.standing, joint.anatomy);
   json["on_mobile"] = wrench_json(answer.contact.on_mobile);
   json["refined_force_n"] = answer.refined_force_n ? io::numbers(*answer.refined_force_n) : Json(nullptr);
   json["energy_nmm"] = answer.contact.energy_nmm;

@@ -150,6 +150,13 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   columns.add("intersecting_pairs", frames,
               [](const auto& f) { return static_cast<double>(f.intersecting_pairs); });
   columns.add("smallest_gap_mm", frames, [](const auto& f) { return f.smallest_gap_mm; });
+  if (!answer.standings.empty()) {
+    columns.add("state", answer.standings,
+                [](const PoseStanding& at) { return static_cast<double>(at.state); });
+    columns.add("clearance_mm", answer.standings, [](const PoseStanding& at) { return at.clearance_mm; });
+    if (question.to_limits)
+      columns.add("to_limit_deg", answer.standings, [](const PoseStanding& at) { return at.to_limit_deg(); });
+  }
   columns.add("oblique_area_mm2", frames, [](const auto& f) { return f.surface.oblique_area_mm2; });
   const Joint& joint = question.joint.joint;
   const std::vector<CoordinateName> coordinates = io::coordinate_names_of(joint.kind, joint.anatomy);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "condyle/error.hpp"
@@ -12,6 +13,7 @@
 #include "io/file/format_version.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
+#include "io/result/movement_words.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
@@ -32,6 +34,20 @@ struct Summary {
   };
   Largest area, depth, pressure, force;
   Largest nearest;  ///< the smallest gap
+  /// Of the frames that were judged: how many are in each state, and those of least clearance and nearest to a limit.
+  std::array<std::size_t, 6> states{};
+  std::optional<std::size_t> tightest = {}, nearest_limit = {};
+  std::string state_unknown_why = {};
+
+  void judge(const PoseStanding& at, const std::vector<std::optional<PoseStanding>>& all, std::size_t i) {
+    ++states[static_cast<std::size_t>(at.state)];
+    if (!at.why_unknown.empty()) state_unknown_why = at.why_unknown;
+    if (!tightest || at.clearance_mm < all[*tightest]->clearance_mm) tightest = i;
+    const double left = at.to_limit_deg();
+    if (!std::isnan(left) && (!nearest_limit || left < all[*nearest_limit]->to_limit_deg()))
+      nearest_limit = i;
+  }
+  std::size_t count(PoseState state) const { return states[static_cast<std::size_t>(state)]; }
 };
 
 Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
@@ -45,6 +61,7 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
       if (answer.balanced[i]->carries_load()) ++summary.carried;
     }
     if (!frame) continue;
+    if (!answer.standings.empty()) summary.judge(*answer.standings[i], answer.standings, i);
     if (frame->in_contact) ++summary.in_contact;
     if (frame->surface.met_from_front > 0) ++summary.from_front;
     if (frame->cut_off_by_reach > 0) ++summary.cut_off;
@@ -87,6 +104,15 @@ std::vector<OutOfBalance> out_of_balance(const MotionAnswer& answer) {
   std::sort(frames.begin(), frames.end(),
             [](const OutOfBalance& a, const OutOfBalance& b) { return a.frame < b.frame; });
   return frames;
+}
+
+/// Frames in each state; null if they were not judged.
+Json states_json(const Summary& summary, const MotionAnswer& answer) {
+  if (answer.standings.empty()) return nullptr;
+  Json states;
+  for (std::size_t i = 0; i < summary.states.size(); ++i)
+    states[name_of(static_cast<PoseState>(i))] = summary.states[i];
+  return states;
 }
 
 /// The body whose surface FrameContact::surface is of.
@@ -226,14 +252,33 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
                         core::counted(summary.gaps, "frame is a gap", "frames are gaps"));
   text += io::contact_caveats_text(question.contact, question.surfaces, question.with_pressure);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
-  text += fmt::format("  {} in contact\n", core::counted(summary.in_contact, "frame", "frames"));
+  text += fmt::format("  {} in contact", core::counted(summary.in_contact, "frame", "frames"));
+  const bool is_judged = !answer.standings.empty() && summary.count(PoseState::contact) == 0,
+             is_bearing = is_judged && summary.in_contact > 0 &&
+                          summary.in_contact == summary.count(PoseState::bearing);
+  text += is_bearing ? ": bearing contact, which ends no motion\n" : "\n";
+  if (is_judged && !is_bearing && summary.in_contact > 0)
+    text += fmt::format("    {} impinging, {} at a limit, {} in bearing contact, which ends no motion\n",
+                        summary.count(PoseState::impinging), summary.count(PoseState::at_limit),
+                        summary.count(PoseState::bearing));
+  if (!summary.state_unknown_why.empty())
+    text += fmt::format("    any contact ends a motion: {}\n", summary.state_unknown_why);
+  const auto at = [&](std::size_t frame) { return fmt::format("{:g}{}", times.values[frame], unit); };
+  if (is_judged && summary.tightest)
+    text += fmt::format("  smallest clearance {:.4g} mm at {}, of surfaces whose contact ends a motion\n",
+                        answer.standings[*summary.tightest]->clearance_mm, at(*summary.tightest));
+  if (is_judged && question.to_limits && summary.nearest_limit)
+    if (const PoseStanding& nearest = *answer.standings[*summary.nearest_limit]; nearest.nearest)
+      text += fmt::format("  nearest to a limit at {}: {:.1f} degrees of {} left\n",
+                          at(*summary.nearest_limit), nearest.to_limit_deg(),
+                          movement_words(nearest.nearest->vary, nearest.nearest->sense, joint.anatomy));
   const auto line = [&](const char* what, const Summary::Largest& largest, const char* of,
                         const std::string& where = "") {
     if (largest.value > 0)
       text += fmt::format("  largest {} {:.4g} {} at {:g}{}{}\n", what, largest.value, of, largest.at, unit,
                           where);
   };
-  if (summary.in_contact == 0 && summary.nearest.frame)
+  if (!is_judged && summary.in_contact == 0 && summary.nearest.frame)
     text +=
         fmt::format("  smallest gap {:.4g} mm at {:g}{}\n", summary.nearest.value, summary.nearest.at, unit);
   line("contact area", summary.area, "mm2");
@@ -309,9 +354,26 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
             {"frames_cut_off_by_reach", summary.cut_off},
             {"frames_with_oblique_area", summary.oblique},
             {"frames_with_oblique_peak", summary.oblique_peak},
+            {"states", states_json(summary, answer)},
+            {"state_unknown_why",
+             summary.state_unknown_why.empty() ? Json(nullptr) : Json(summary.state_unknown_why)},
+            {"smallest_clearance_mm", nullptr},
+            {"least_to_limit_deg", nullptr},
             {"smallest_gap_mm", summary.nearest.frame ? largest(summary.nearest) : Json(nullptr)},
             {"largest_area_mm2", largest(summary.area)},
             {"largest_depth_mm", largest(summary.depth)}};
+  if (summary.tightest && std::isfinite(answer.standings[*summary.tightest]->clearance_mm))
+    json["smallest_clearance_mm"] = {{"value", answer.standings[*summary.tightest]->clearance_mm},
+                                     {axis, times.values[*summary.tightest]}};
+  if (question.to_limits && summary.nearest_limit) {
+    const PoseStanding& nearest = *answer.standings[*summary.nearest_limit];
+    json["least_to_limit_deg"] = {
+        {"value", nearest.to_limit_deg()},
+        {axis, times.values[*summary.nearest_limit]},
+        {"movement", nearest.nearest
+                         ? Json(movement_name(nearest.nearest->vary, nearest.nearest->sense, joint.anatomy))
+                         : Json(nullptr)}};
+  }
   if (summary.depth.frame) {
     const Index deepest = io::deepest_of(summary.depth.frame->surface)->face;
     json["largest_depth_mm"]["triangle"] = deepest;

@@ -26,6 +26,7 @@ struct MotionQuestion {
   bool with_pressure = false;
   std::vector<JointNote> notes = {};
   const Provenance* provenance = nullptr;
+  bool to_limits = false;  ///< of each frame, degrees to the nearest limit
 };
 
 /// How one end of a contact is known: "exact", "bounded", "recording_begins" of an entry or "recording_ends" of an exit: the bodies

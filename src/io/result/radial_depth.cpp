@@ -106,14 +106,14 @@ std::string rays_json(const DepthQuestion& question, const DepthAnswer& answer, 
   return io::document(json);
 }
 
-std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
+std::string reliable_text(const DeepestOf& deepest, Anatomy joint, const char* head) {
   const auto& [view, vertex] = deepest;
   const contact::ExitRotation* rotation = rotation_of(vertex);
   const std::string along =
       rotation ? fmt::format("along the arc of {}, {:.3f} deg", name_of(*io::angle_of(vertex.kind), joint),
                              rotation->angle.degrees())
                : "along the ray";
-  return fmt::format("  depth: {:.3f} mm {}, {}, {}\n    its nearest surface is {:.3f} mm away\n",
+  return fmt::format("{}{:.3f} mm {}, {}, {},\n    {:.3f} mm from its nearest surface\n", head,
                      vertex.depth_mm, along, io::vertex_text(view->body, vertex.vertex),
                      io::place_text(view->place_of(vertex.vertex)), vertex.nearest_distance_mm);
 }
@@ -124,7 +124,7 @@ std::string rays_text(const DepthQuestion& question, const DepthAnswer& answer, 
   const RadialViews bodies = views(question, summary);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
   if (const auto deepest = deepest_of(bodies, reliable))
-    text += reliable_text(*deepest, question.joint.anatomy);
+    text += reliable_text(*deepest, question.joint.anatomy, answer.deepest_place ? "    " : "  depth: ");
   if (const std::size_t count = contact::without_depth(reliable); count > 0)
     text += fmt::format("  {} vertices inside have no {}, only a nearest distance\n", count,
                         answer.request.method == DepthMethod::reliable

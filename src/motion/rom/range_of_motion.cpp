@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -455,6 +457,42 @@ std::vector<MotionLimit> RangeOfMotion::limits(std::span<const Motion> motions) 
     for (std::size_t i = first; i < last; ++i) out[i] = limit(motions[i]);
   });
   return out;
+}
+
+std::optional<NearestEnd> RangeOfMotion::nearest_end(const JointAngles& start) const {
+  std::optional<NearestEnd> nearest;
+  Angle within = Angle::degrees(180);
+  for (const JointAngle vary : all_joint_angles) {
+    if (kind() == JointKind::hinge && vary != JointAngle::flexion) continue;
+    const RotationLimits both = parts_->first_end(parts_->workers.local(), vary, start, {-within, within});
+    for (const RotationSense sense : {RotationSense::negative, RotationSense::positive}) {
+      const Limit& end = sense == RotationSense::negative ? both.negative : both.positive;
+      if (end.reason == LimitReason::end_of_range || (nearest && !(end.turned < within))) continue;
+      within = end.turned;
+      nearest = {end, vary, sense};
+    }
+    if (!both.free_at_start()) break;
+  }
+  return nearest;
+}
+
+double RangeOfMotion::clearance_mm(const Pose& X_FM) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PairOfParts& pair : parts_->impinging)
+    if (const auto nearest =
+            mesh::closest_points(parts_->fixed[pair.fixed]->body.tree.triangle_tree(),
+                                 parts_->mobile[pair.mobile]->body.tree.triangle_tree(), X_FM, least))
+      least = nearest->distance_mm;
+  return least;
+}
+
+bool RangeOfMotion::may_end_within(Angle turn, const Vec3& origin_F, double clearance_mm) const {
+  if (!parts_->ligaments.empty()) return true;
+  double squared_reach = 0;
+  const Points& vertices = parts_->whole_fixed.vertices();
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    squared_reach = std::max(squared_reach, (vertices[v] - origin_F).squaredNorm());
+  return clearance_mm <= std::sqrt(squared_reach) * turn.radians();
 }
 
 JointKind RangeOfMotion::kind() const noexcept {

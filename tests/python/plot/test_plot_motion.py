@@ -96,6 +96,8 @@ def test_one_quantity_is_as_wide_as_a_column_and_bodies_apart_have_a_gap():
                           (figures.panels({"time_s": [0.0], "smallest_gap_mm": [0.0]}), "smallest gap (mm)")):
         assert [ax.get_ylabel() for ax in figure.axes] == [label]
         assert figure.get_size_inches()[0] * 25.4 == pytest.approx(85)
+    judged = figures.panels({**apart, "clearance_mm": [5.0, 4.0, 3.0], "to_limit_deg": [30.0, 20.0, 10.0]})
+    assert [ax.get_ylabel() for ax in judged.axes] == ["to the nearest limit (°)", "clearance (mm)"]
     touching = figures.panels({**TABLE, "smallest_gap_mm": [0.0, 0.0, 0.0]})
     assert "smallest gap (mm)" not in [ax.get_ylabel() for ax in touching.axes]
 
