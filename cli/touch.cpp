@@ -100,7 +100,7 @@ io::TouchFiles read_touch_files(const TwoMeshes& options, const CLI::App& comman
 
 /// Says the notes of an answer, or refuses it for them, before anything is written.
 template <class Answer>
-Answer noted(Answer answer, const TwoMeshes& options) {
+Answer with_notes_said(Answer answer, const TwoMeshes& options) {
   say_notes(answer.notes, options.fixed + ", " + options.mobile, options.strictness);
   return answer;
 }
@@ -147,14 +147,16 @@ void turn_command(const TwoMeshes& options, const CLI::App& command) {
   const io::TouchFiles files = read_touch_files(options, command);
   const TurnRequest request{three_of(options.axis), three_of(options.centre), files.X_FM,
                             options.units.has_value()};
-  say_touch(options, files, noted(answer_turn(files.fixed.mesh, files.mobile.mesh, request), options),
+  say_touch(options, files,
+            with_notes_said(answer_turn(files.fixed.mesh, files.mobile.mesh, request), options),
             io::turn_object, io::turn_text);
 }
 
 void slide_command(const TwoMeshes& options, const CLI::App& command) {
   const io::TouchFiles files = read_touch_files(options, command);
   const SlideRequest request{three_of(options.along), files.X_FM, options.units.has_value()};
-  say_touch(options, files, noted(answer_slide(files.fixed.mesh, files.mobile.mesh, request), options),
+  say_touch(options, files,
+            with_notes_said(answer_slide(files.fixed.mesh, files.mobile.mesh, request), options),
             io::slide_object, io::slide_text);
 }
 
