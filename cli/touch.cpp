@@ -127,7 +127,7 @@ void touch_command(const TwoMeshes& options, const CLI::App& command) {
   const io::TouchFiles files = read_touch_files(options, command);
   if (!options.out.empty()) io::check_touch_folder(options.out, files);
   if (!options.picture.empty()) io::check_output_file(options.picture, files.read, {"a picture", {".png"}});
-  const TouchAnswer answer = noted(
+  const TouchAnswer answer = with_notes_said(
       answer_touch(files.fixed.mesh, files.mobile.mesh,
                    {.X_FM = files.X_FM,
                     .measures = options.measures,
