@@ -39,6 +39,7 @@
 #include "model_options.hpp"
 #include "proposed_files.hpp"
 #include "range_options.hpp"
+#include "resection_options.hpp"
 #include "whole_number.hpp"
 
 namespace condyle::cli {
@@ -47,7 +48,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct HipArguments {
-  std::string pelvis, out, plan;
+  std::string pelvis, out;
+  ResectionArguments cut;
   std::optional<std::string> crate_date;
   std::vector<std::string> femora;
   std::string fixed_label, mobile_label;
@@ -188,8 +190,7 @@ Side write_joint(const HipArguments& options, Proposed& proposed) {
 
 /// "46.5 deg", and where no bone ends the motion that.
 std::string turned_words(const motion::MotionLimit& limit) {
-  if (limit.end.reason == motion::LimitReason::end_of_range)
-    return io::beyond_range(limit.end.turned, nullptr) + " deg";
+  if (limit.end.reason == motion::LimitReason::end_of_range) return io::beyond_range(limit, nullptr) + " deg";
   const bool is_cut = limit.end.contact && limit.end.kind() == motion::ContactKind::cut;
   return fmt::format("{:.1f} deg{}", limit.end.turned.degrees(), is_cut ? ", the cut of the image" : "");
 }
@@ -206,10 +207,13 @@ std::string write_plan(const fs::path& folder, AnsweredHip& hip, const io::Repor
   io::write_report(folder / "planned.html", hip.loaded, request, answer, words);
   say_written({folder / "planned.html"});
   std::string reached;
-  for (const plan::ReachOutcome& outcome : answer.plan->resection.targets)
-    reached += fmt::format("; {} {}, now {}", outcome.target.motion.name, turned_words(outcome.after),
-                           turned_words(outcome.before));
-  return fmt::format("  {}planned: {}{}\n", whose, answer.plan->resection.joint.planned, reached);
+  for (std::size_t i = 0; i < answer.plan->promises.size(); ++i) {
+    const plan::ReachOutcome& outcome = answer.plan->resection.targets[i];
+    reached +=
+        fmt::format("  {}{} {}, now {}: {}\n", whose, outcome.target.motion.name, turned_words(outcome.after),
+                    turned_words(outcome.before), answer.plan->promises[i].text);
+  }
+  return fmt::format("  {}planned: {}\n{}", whose, answer.plan->resection.joint.planned, reached);
 }
 
 /// Limits with bands, shape, page and plan of one hip, beside its joint file.
@@ -224,8 +228,10 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
   io::ReportRequest request{.range = range_request_of(options.range, hip.loaded, Case(hip.loaded).motions()),
                             .with_measures = true};
   std::optional<ResectionRequest> plan;
-  if (!options.plan.empty()) {
-    plan.emplace().resection.targets = reach_targets(request.range.motions, options.plan);
+  if (!options.cut.targets.empty()) {
+    plan.emplace().resection.targets = reach_targets(request.range.motions, options.cut.targets);
+    plan->bands = request.range.bands;
+    plan->confidence = confidence_of(options.cut, plan->bands);
     plan->curve_points = 0;  // each costs a cut: condyle resect has them
     check_gains(hip.loaded, request.range, *plan);
   }
@@ -256,7 +262,7 @@ std::vector<std::vector<double>> pieces_of_work(const HipArguments& options, boo
   for (std::size_t i = 0; i < hips; ++i) {
     if (of_labels) pieces.push_back({1, 1});
     pieces.push_back({2, 10});
-    if (!options.plan.empty()) pieces.push_back({3, 2, 10});
+    if (!options.cut.targets.empty()) pieces.push_back({10, 2, 3, 2, 10});
   }
   return pieces;
 }
@@ -358,8 +364,8 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
   if (of_labels && options.units) throw UsageError("--units: surfaces of label maps are in mm");
   if (of_labels && options.polygons) throw UsageError("--polygons: surfaces of label maps have none");
   say_as(options.form);
-  if (!options.plan.empty())
-    (void)reach_targets(motion::hip_motions(), options.plan);  // throws before the work
+  if (!options.cut.targets.empty())
+    (void)reach_targets(motion::hip_motions(), options.cut.targets);  // throws before the work
   std::list<AnsweredHip> answered;
   std::exception_ptr refused;  // one hip without an answer does not keep the other from having one
   const std::vector<Propose> joints = of_labels ? joints_of_labels(options) : joints_of_meshes(options);
@@ -414,9 +420,10 @@ void add_hip(CLI::App& app) {
       ->option_text("FOLDER");
   command
       ->add_option(
-          "--plan", options->plan,
+          "--plan", options->cut.targets,
           "Plan the bone that must go for these motions to reach this far, as condyle resect --reach")
       ->option_text("MOTION=DEG ...");
+  add_confidence(*command, options->cut)->needs("--plan");
   add_side(*command, options->side,
            "Only this hip. Default: by the labels' names, else inferred from the bones");
   add_choice(*command, "--units", options->units,
@@ -451,14 +458,13 @@ void add_hip(CLI::App& app) {
   add_verbose(*command, options->form);
   std::vector<std::string> of_labels{"--fixed", "--mobile"};
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
-  group_help(
-      *command,
-      {{"Most used", {"--out", "--plan", "--side", "--task"}},
-       {"Question",
-        {"--age", "--sex", "--species", "--units", "--polygons", "--samples", "--accept-reference-contact"}},
-       {"Label maps", of_labels},
-       {"Images", label_file_names()},
-       {"Output", {"--case", "--note", "--date", "--crate", "--verbose", "--help"}}});
+  group_help(*command, {{"Most used", {"--out", "--plan", "--side", "--task"}},
+                        {"Question",
+                         {"--confidence", "--age", "--sex", "--species", "--units", "--polygons", "--samples",
+                          "--accept-reference-contact"}},
+                        {"Label maps", of_labels},
+                        {"Images", label_file_names()},
+                        {"Output", {"--case", "--note", "--date", "--crate", "--verbose", "--help"}}});
   command->callback([options, command] { hip_command(*options, *command); });
 }
 

@@ -85,11 +85,11 @@ CLI::Option* add_accept(CLI::App& command, RangeArguments& given) {
       "so");
 }
 
-CLI::Option* add_band(CLI::App& command, RangeArguments& given) {
+CLI::Option* add_band(CLI::App& command, RangeArguments& given, std::uint64_t fewest) {
   const std::string band_help =
       "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N displaced joints";
   auto* band = command.add_flag("--band{200}", band_help)
-                   ->check(whole_number(1))
+                   ->check(whole_number(fewest))
                    ->each([&given](const std::string& text) { given.band.samples = std::stoull(text); })
                    ->option_text("[=N] (200)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };

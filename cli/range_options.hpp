@@ -31,7 +31,8 @@ CLI::Option* add_map(CLI::App& command, RangeArguments& given);
 CLI::Option* add_translation(CLI::App& command, RangeArguments& given);
 CLI::Option* add_bearing(CLI::App& command, RangeArguments& given);
 CLI::Option* add_accept(CLI::App& command, RangeArguments& given);
-CLI::Option* add_band(CLI::App& command, RangeArguments& given);
+/// Fewest joints 0: no band.
+CLI::Option* add_band(CLI::App& command, RangeArguments& given, std::uint64_t fewest = 1);
 CLI::Option* add_past(CLI::App& command, RangeArguments& given);
 
 /// --motion, which may be given often.

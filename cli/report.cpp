@@ -94,8 +94,10 @@ void check_comparison(const ReportArguments& options) {
 std::optional<ResectionRequest> planned(const ReportArguments& options, const RangeRequest& range) {
   if (!options.has_plan()) return std::nullopt;
   ResectionRequest request{.resection = resection_request_of(options.cut),
+                           .confidence = confidence_of(options.cut, BandRequest{}),
                            .curve_points = options.curve_points};
   request.resection.targets = reach_targets(range.motions, options.cut.targets);
+  if (range.bands) request.bands = range.bands;
   return request;
 }
 
@@ -250,6 +252,7 @@ void add_report(CLI::App& app) {
                        "condyle resect --reach does: \"flexion=115 fadir=+10\"")
           ->option_text("MOTION=DEG ...");
   add_cut(*command, options->cut, resect);
+  add_confidence(*command, options->cut)->excludes(command->get_option("--margin"))->needs(resect);
   add_curve(*command, options->curve_points)->needs(resect);
   auto* map = add_map(*command, options->range);
   auto* translation = add_translation(*command, options->range);
@@ -260,7 +263,7 @@ void add_report(CLI::App& app) {
   add_follow(*command, options->follow, {map, translation, past, accept, band});
   add_strict(*command, options->strictness, or_contact);
   HelpGroup of_cut = resection_group();
-  of_cut.options.emplace_back("--curve");
+  of_cut.options.insert(of_cut.options.end(), {"--confidence", "--curve"});
   group_help(
       *command,
       {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},

@@ -44,6 +44,7 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
   request.resection.range = range.range;
   request.motions = motions;
   request.bands = range.bands;
+  request.confidence = confidence_of(options.cut, range.bands);
   request.curve_points = options.curve_points;
   const ResectionAnswer answer =
       answered(options, [&](const Control& control) { return answer_resection(loaded, request, control); });
@@ -66,6 +67,7 @@ void add_resect(CLI::App& app) {
       "         condyle rom plan/resected.toml\n"
       "Osseous: labrum, cartilage, capsule and the strength of the remaining bone are not modelled.");
   auto options = std::make_shared<ResectArguments>();
+  options->range.band.samples = BandRequest{}.samples;
   add_joint(*command, *options);
   CLI::Option* reach =
       command
@@ -76,6 +78,7 @@ void add_resect(CLI::App& app) {
           ->option_text("MOTION=DEG ...")
           ->required();
   add_cut(*command, options->cut, reach);
+  add_confidence(*command, options->cut)->excludes(command->get_option("--margin"));
   command
       ->add_option(
           "--protect", options->protect_mobile,
@@ -85,7 +88,7 @@ void add_resect(CLI::App& app) {
   command->add_option("--protect-fixed", options->protect_fixed, "The same for the fixed body")
       ->option_text("FILE");
   add_curve(*command, options->curve_points);
-  add_band(*command, options->range);
+  add_band(*command, options->range, 0);
   add_bearing(*command, options->range);
   add_accept(*command, options->range);
   add_out(*command, options->out,
@@ -94,7 +97,7 @@ void add_resect(CLI::App& app) {
   add_json(*command, options->form);
   add_strict(*command, options->strictness);
   group_help(*command,
-             {{"Most used", {"--reach", "--out", "--from", "--band", "--json"}},
+             {{"Most used", {"--reach", "--out", "--confidence", "--from", "--json"}},
               {"Question", {"--set"}},
               {"Bone that stays", {"--deepest", "--within", "--protect", "--protect-fixed", "--margin"}},
               {"Contact", {"--bearing", "--accept-reference-contact"}},

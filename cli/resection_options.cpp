@@ -34,7 +34,7 @@ void add_cut(CLI::App& command, ResectionArguments& given, CLI::Option* targets)
   add(command.add_option(
           "--margin", given.margin_mm,
           "Keep the remaining bone clear of the other bone's surface moved outwards by this, 0 to 10"),
-      "MM (0)");
+      "MM");
   add(command.add_option("--burr", given.burr_mm,
                          "Leave a surface that a ball of this diameter can make, 0.5 to 30: no groove is "
                          "narrower, and the answer reports the bone that goes only for that"),
@@ -46,6 +46,22 @@ void add_cut(CLI::App& command, ResectionArguments& given, CLI::Option* targets)
       "MM");
   add(command.add_option("--edge", given.edge_mm, "Make triangles around the cut this small, 0.05 to 10"),
       "MM (0.5)");
+}
+
+CLI::Option* add_confidence(CLI::App& command, ResectionArguments& given) {
+  return command
+      .add_option("--confidence", given.confidence,
+                  "Plan with the margin with which each target is reached in this share of the displaced "
+                  "joints of the band, above 0 and below 1")
+      ->option_text("SHARE (0.5)");
+}
+
+std::optional<double> confidence_of(const ResectionArguments& given,
+                                    const std::optional<BandRequest>& bands) {
+  if (given.confidence && !bands)
+    throw UsageError("--confidence: is a share of displaced joints, and there are none");
+  return given.margin_mm ? std::nullopt
+                         : std::optional(given.confidence.value_or(*ResectionRequest{}.confidence));
 }
 
 CLI::Option* add_curve(CLI::App& command, std::size_t& points) {
@@ -67,7 +83,7 @@ plan::ResectionOptions resection_request_of(const ResectionArguments& given) {
   request.fixed_share = fixed_share(given);
   request.mobile = kept;
   request.fixed = kept;
-  request.margin_mm = given.margin_mm;
+  request.margin_mm = given.margin_mm.value_or(0);
   request.burr_mm = given.burr_mm;
   request.edge_mm = given.edge_mm;
   return request;

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "answer/limit_facts.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "interrupts.hpp"
@@ -135,11 +136,14 @@ py::list bands_of(const RangeHandle& handle, const py::list& motions, const py::
   const RangeAnswer found =
       further_answered(handle, {.motions = motions_in(motions), .bands = band_in(band)}, progress);
   py::list list;
-  for (const motion::LimitBand& of_limit : found.bands) {
+  for (std::size_t i = 0; i < found.bands.size(); ++i) {
+    const motion::LimitBand& of_limit = found.bands[i];
+    const motion::Motion& motion = found.limits[i].motion;
     py::dict dict;
-    dict["p5_deg"] = of_limit.p5.degrees();
-    dict["median_deg"] = of_limit.median.degrees();
-    dict["p95_deg"] = of_limit.p95.degrees();
+    dict["p5_deg"] = degrees_turned(of_limit.p5, motion);
+    dict["median_deg"] = degrees_turned(of_limit.median, motion);
+    dict["p95_deg"] = degrees_turned(of_limit.p95, motion);
+    dict["text"] = quoted_band(of_limit, motion);
     dict["width_from_centre_deg"] = of_limit.width_from.centre.degrees();
     dict["width_from_axes_deg"] = of_limit.width_from.axes.degrees();
     dict["width_from_surface_deg"] = of_limit.width_from.surface.degrees();

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "answer/limit_facts.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/brush.hpp"
@@ -31,6 +32,7 @@ ResectionRequest request_in(const py::list& motions, const py::list& reach, cons
   request.resection.range.bearing = bearing_in(given);
   request.curve_points = given["curve_points"].cast<std::size_t>();
   request.bands = band_in(given["band"]);
+  request.confidence = given["confidence"].cast<std::optional<double>>();
   return request;
 }
 
@@ -53,16 +55,28 @@ py::object dict_of_cut(const std::optional<plan::CutBone>& cut) {
 }
 
 py::tuple tuple_of_target(const JointHandle& handle, const plan::Resection& without,
-                          const plan::ReachOutcome& outcome) {
+                          const plan::ReachOutcome& outcome, const TargetPromise& promise) {
   py::object blocked = py::none();
   if (outcome.blocked)
     blocked = py::make_tuple(std::string(name_of(outcome.blocked->by)),
                              outcome.blocked->body == BodyRole::mobile ? "mobile" : "fixed",
                              array_of(outcome.blocked->point_mm));
-  return py::make_tuple(outcome.target.motion.name, plan::asked_degrees(outcome.target.reach),
-                        plan::asked_degrees(outcome.planned),
-                        limits_of(handle.joint(), {&outcome.before, 1})[0],
-                        limits_of(without.joint, {&outcome.after, 1})[0], blocked);
+  const motion::Motion& motion = outcome.target.motion;
+  const auto band = [&](const std::optional<motion::LimitBand>& of) -> py::object {
+    if (!of) return py::none();
+    return py::make_tuple(degrees_turned(of->p5, motion), degrees_turned(of->median, motion),
+                          degrees_turned(of->p95, motion));
+  };
+  py::object other = py::none();
+  if (const auto& centre = promise.other_centre)
+    other = py::make_tuple(centre->of == BodyRole::fixed ? "socket" : "head",
+                           degrees_turned(centre->before, motion), degrees_turned(centre->after, motion),
+                           centre->is_decided);
+  return py::make_tuple(
+      motion.name, plan::asked_degrees(outcome.target.reach), plan::asked_degrees(outcome.planned),
+      limits_of(handle.joint(), {&outcome.before, 1})[0], limits_of(without.joint, {&outcome.after, 1})[0],
+      blocked, optional_number(promise.confidence_reached), band(promise.before), band(promise.after), other,
+      promise.is_plan, promise.text);
 }
 
 /// Keys and (before, after), None where the meshes do not show a measure; None for joints other than hips.
@@ -81,11 +95,12 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   const ResectionRequest request = request_in(motions, reach, given);
   ResectionAnswer answer = *with_progress(
       progress, [&](const Control& control) { return answer_resection(handle.loaded, request, control); });
-  py::list targets, bands, curve;
-  for (const plan::ReachOutcome& outcome : answer.resection.targets)
-    targets.append(tuple_of_target(handle, answer.resection, outcome));
-  for (const motion::LimitBand& band : answer.bands)
-    bands.append(py::make_tuple(band.p5.degrees(), band.median.degrees(), band.p95.degrees()));
+  py::list targets, alternatives, curve;
+  for (std::size_t i = 0; i < answer.promises.size(); ++i)
+    targets.append(
+        tuple_of_target(handle, answer.resection, answer.resection.targets[i], answer.promises[i]));
+  for (const ResectionAlternative& each : answer.alternatives)
+    alternatives.append(py::make_tuple(each.confidence, each.margin_mm, each.volume_mm3));
   for (const ResectionCurvePoint& point : answer.curve)
     curve.append(py::make_tuple(point.target, point.reached.degrees(), point.volume_mm3, point.deepest_mm));
   py::dict dict;
@@ -99,7 +114,9 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   for (const Angle each : answer.gain) gain.append(each.degrees());
   dict["gain_deg"] = gain;
   dict["shapes"] = shapes_of(answer);
-  dict["bands"] = bands;
+  dict["confidence"] = optional_number(answer.confidence);
+  dict["displaced"] = answer.displaced;
+  dict["alternatives"] = alternatives;
   dict["curve"] = curve;
   dict["notes"] = notes_of(answer.notes) + notes_of(answer.limit_notes);
   dict["margin_mm"] = answer.margin_mm;
@@ -158,7 +175,7 @@ plan::ResectionOptions cut_in(const py::dict& given) {
   request.fixed_share = given["fixed_share"].cast<double>();
   request.mobile = kept;
   request.fixed = kept;
-  request.margin_mm = given["margin_mm"].cast<double>();
+  request.margin_mm = optional("margin_mm").value_or(0);
   request.burr_mm = optional("burr_mm");
   request.edge_mm = given["edge_mm"].cast<double>();
   return request;

@@ -49,7 +49,7 @@ from ._recorded_motion import read_motion_table
 from ._record import Record
 from ._records import BoneReference, Caveat, ClosedForm, LivingLimit, MeasureBand, NormalRange, PeopleRange, SlideRecord, SoftTissueGap
 from ._records import TouchRecord, TurnRecord
-from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
+from ._resection import Blocked, CurvePoint, CutBone, OtherCentre, ReachedTarget, Resection, ResectionAlternative
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
 from ._study import Study, StudyLoad, StudyResection, StudyTable, merge_study, read_study, run_study, sample_cohort
 from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thickness_to
@@ -58,7 +58,7 @@ from ._tables import OccupiedArcs, RadialTable, RingTable
 from ._touch import Answers, slide, touch, turn
 
 __all__ = [
-    "Answers", "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BoneReference", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
+    "Answers", "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BoneReference", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "OtherCentre", "ReachedTarget", "Resection", "ResectionAlternative", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
     "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",

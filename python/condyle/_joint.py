@@ -543,9 +543,9 @@ class Joint(DescribedJoint):
         return HipMeasures(self, pelvic_tilt_deg, band_samples, seed, progress)
 
     def resection(self, reach: Reach, *, cut: CutFrom = "mobile", share: Optional[float] = None,
-                  margin_mm: float = 0, deepest_mm: Optional[float] = None, within_mm: Optional[float] = None,
-                  burr_mm: Optional[float] = None, keep: Optional[ArrayLike] = None, keep_fixed: Optional[ArrayLike] = None, edge_mm: float = 0.5,
-                  curve_points: int = 10, band_samples: int = 0, seed: Optional[int] = None,
+                  margin_mm: Optional[float] = None, confidence: Optional[float] = None, deepest_mm: Optional[float] = None,
+                  within_mm: Optional[float] = None, burr_mm: Optional[float] = None, keep: Optional[ArrayLike] = None,
+                  keep_fixed: Optional[ArrayLike] = None, edge_mm: float = 0.5, curve_points: int = 10, band_samples: int = 200, seed: Optional[int] = None,
                   bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
                   progress: Progress = None) -> Resection[Joint]:
         """The bone that must go so that each motion reaches its target, and the joint without it.
@@ -558,8 +558,11 @@ class Joint(DescribedJoint):
             How far each shall go from its start, or as a text with a plus, "+10", how far beyond its limit now.
         cut : "mobile", "fixed" or "both"
             The body that is cut; with "both" the fixed one for `share` of the depth, half if not given.
-        margin_mm : float
-            The remaining bone stays clear of the other bone's surface moved outwards by this.
+        margin_mm : float, optional
+            The remaining bone stays clear of the other bone's surface moved outwards by this. Without it the margin is the smallest
+            with which `confidence`, half if not given, of the displaced joints reaches each target.
+        confidence : float, optional
+            That share, above 0 and below 1.
         deepest_mm, within_mm : float, optional
             Bone deeper than that stays, and bone farther than that outside the ball of the bearing surface. What the bearing surface
             has stays always.
@@ -572,7 +575,7 @@ class Joint(DescribedJoint):
         curve_points : int
             Points on each target's curve of degrees against mm3; each costs a cut.
         band_samples : int
-            Above 0: each target is reached in 95 % of so many displaced joints, as :meth:`RangeOfMotion.bands` displaces them.
+            Joints, displaced as :meth:`RangeOfMotion.bands` does, by which the plan is made and judged; 0: by the joint as given only.
         bearing, bearing_margin_mm :
             As :meth:`range_of_motion` takes them.
 
@@ -586,12 +589,14 @@ class Joint(DescribedJoint):
         >>> import condyle
         >>> bones = condyle.sample_hip(alpha_angle_deg=70)
         >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
-        >>> plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=0)
+        >>> plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=0, band_samples=20)
+        >>> plan.targets[0].confidence_reached >= 0.5
+        True
         >>> plan.after[8].limit_deg >= 45
         True
         """
-        return resection(self, Joint._of_native, reach, cut, share, margin_mm, deepest_mm, within_mm, burr_mm, keep, keep_fixed, edge_mm,
-                         curve_points, band_samples, seed, bearing, bearing_margin_mm, progress)
+        return resection(self, Joint._of_native, reach, cut, share, margin_mm, confidence, deepest_mm, within_mm, burr_mm, keep, keep_fixed,
+                         edge_mm, curve_points, band_samples, seed, bearing, bearing_margin_mm, progress)
 
     def brushed(self, strokes: Sequence[BrushStroke], *, body: Body = "mobile", keep: Optional[ArrayLike] = None,
                 bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None) -> Brushed[Joint]:

@@ -17,13 +17,14 @@ if TYPE_CHECKING:
 class LimitBand:
     """The spread of one motion's limit, degrees: 5, 50 and 95 % of the displaced joints.
 
-    `width_from_…_deg` are widths where only one source is uncertain; shares are 0 to 1.
+    `text` quotes it: "88–>120" where 5 % reach the end of the motion's range. `width_from_…_deg` are widths where only one source is uncertain; shares are 0 to 1.
     """
 
     motion: Motion
     p5_deg: float
     median_deg: float
     p95_deg: float
+    text: str
     width_from_centre_deg: float
     width_from_axes_deg: float
     width_from_surface_deg: float
@@ -38,8 +39,8 @@ class LimitBands(tuple[LimitBand, ...]):
     __slots__ = ()
 
     def _repr_html_(self) -> str:
-        return html_of("5, 50 and 95 % of the limits (deg)", [
-            (band.motion.name, f"{band.p5_deg:.1f}, {band.median_deg:.1f}, {band.p95_deg:.1f}") for band in self])
+        return html_of("5 to 95 % of the limits (deg)", [
+            (band.motion.name, f"{band.text}, median {band.median_deg:.1f}") for band in self])
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row per motion. Needs pandas."""

@@ -66,6 +66,7 @@ class BandRecord(Record):
     p5_deg: float
     median_deg: float
     p95_deg: float
+    text: str
     width_from: BandWidthRecord
     share_without_contact: float
     share_in_contact_at_start: float

@@ -73,9 +73,32 @@ class Blocked(NamedTuple):
     point_mm: NDArray[np.float64]
 
 
+class OtherCentre(NamedTuple):
+    """A motion before and after a cut about the centre of the "socket" or "head"; decided if its target is reached about both centres or neither."""
+
+    centre: str
+    before_deg: float
+    after_deg: float
+    is_decided: bool
+
+
 @dataclass(frozen=True, eq=False)
 class ReachedTarget:
-    """A motion, how far it should go, and how far it goes; `band` has 5 %, median and 95 % of that if asked for."""
+    """A motion, how far it should go, and how far it goes.
+
+    Attributes
+    ----------
+    confidence_reached : float, optional
+        Share of the displaced joints in which this cut reaches the target.
+    before_band, band : tuple of float, optional
+        5 %, median and 95 % of where they end before the cut and after it.
+    other_centre : OtherCentre, optional
+        The same about the other one of head's and socket's centres, if these are known over 1 mm apart.
+    is_plan : bool
+        False if it ends before where it ends now about the other centre.
+    text : str
+        All that in a sentence.
+    """
 
     motion: str
     reach_deg: float
@@ -83,7 +106,20 @@ class ReachedTarget:
     before: MotionLimit
     after: MotionLimit
     blocked: Optional[Blocked]
-    band: Optional[tuple[float, float, float]] = None
+    confidence_reached: Optional[float]
+    before_band: Optional[tuple[float, float, float]]
+    band: Optional[tuple[float, float, float]]
+    other_centre: Optional[OtherCentre]
+    is_plan: bool
+    text: str
+
+
+class ResectionAlternative(NamedTuple):
+    """The margin with which a share of the displaced joints reaches the targets, and what it costs."""
+
+    confidence: float
+    margin_mm: float
+    volume_mm3: float
 
 
 class CurvePoint(NamedTuple):
@@ -108,13 +144,20 @@ class Resection(Compiled, Generic[OfJoint]):
     before, after : tuple of MotionLimit
         Exact limits of all motions of the joint, before and without the bone.
     gain_deg : tuple of float
-        What the cut adds to each of them. Smaller triangles of the same surface add a little by themselves, which is no gain.
+        What the cut adds to each of them; to a target in the share `confidence` of displaced joints, or half. Smaller triangles of the same
+        surface add a little by themselves, which is no gain.
     measures : dict of (before, after)
         Measures of a hip by the keys of :class:`HipMeasures`; None for a measure that the meshes do not show. Empty for other joints.
     curve : tuple of CurvePoint
         Degrees against mm3.
     margin_mm : float
-        As planned: larger than asked for where bands are to be reached.
+        As planned.
+    confidence : float, optional
+        The share of displaced joints that it was chosen for; None for a margin that was given.
+    displaced : int
+        Joints by which the plan is judged.
+    alternatives : tuple of ResectionAlternative
+        This plan, and the one for 80 % of displaced joints.
     notes : what the plan must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
@@ -129,6 +172,9 @@ class Resection(Compiled, Generic[OfJoint]):
     measures: dict[str, tuple[Optional[float], Optional[float]]]
     curve: tuple[CurvePoint, ...]
     margin_mm: float
+    confidence: Optional[float]
+    displaced: int
+    alternatives: tuple[ResectionAlternative, ...]
     notes: tuple[ContactNote, ...]
     caveats: list[str]
     _native: Optional[Plan] = None
@@ -145,7 +191,7 @@ class Resection(Compiled, Generic[OfJoint]):
         return sum(bone.volume_mm3 for bone in (self.mobile, self.fixed) if bone)
 
     def __repr__(self) -> str:
-        reached = ", ".join(f"{each.motion} {each.before.limit_deg:.1f} -> {each.after.limit_deg:.1f}" for each in self.targets)
+        reached = "; ".join(f"{each.motion} {each.text}" for each in self.targets)
         return f"Resection({reached}; {self.volume_mm3:.1f} mm3)"
 
 
@@ -196,7 +242,7 @@ def kept_vertices(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArr
     return merged
 
 
-def cut_options(cut: CutFrom, share: Optional[float], margin_mm: float, deepest_mm: Optional[float],
+def cut_options(cut: CutFrom, share: Optional[float], margin_mm: Optional[float], deepest_mm: Optional[float],
                 within_mm: Optional[float], burr_mm: Optional[float], edge_mm: float) -> dict[str, Any]:
     """How bone is cut, checked."""
     if share is not None and cut != "both":
@@ -206,21 +252,25 @@ def cut_options(cut: CutFrom, share: Optional[float], margin_mm: float, deepest_
     def optional(value: Optional[float], name: str) -> Optional[float]:
         return None if value is None else number(value, name)
 
-    return {"fixed_share": shares[word(cut, "cut", CutFrom)], "margin_mm": number(margin_mm, "margin_mm"),
+    return {"fixed_share": shares[word(cut, "cut", CutFrom)], "margin_mm": optional(margin_mm, "margin_mm"),
             "deepest_mm": optional(deepest_mm, "deepest_mm"), "within_mm": optional(within_mm, "within_mm"),
             "burr_mm": optional(burr_mm, "burr_mm"), "edge_mm": number(edge_mm, "edge_mm")}
 
 
-def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach: Reach, cut: CutFrom, share: Optional[float], margin_mm: float,
-              deepest_mm: Optional[float], within_mm: Optional[float], burr_mm: Optional[float], keep: Optional[ArrayLike],
+def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach: Reach, cut: CutFrom, share: Optional[float],
+              margin_mm: Optional[float], confidence: Optional[float], deepest_mm: Optional[float], within_mm: Optional[float], burr_mm: Optional[float], keep: Optional[ArrayLike],
               keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
               bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection[OfJoint]:
+    if confidence is not None and (margin_mm is not None or band_samples == 0):
+        raise UsageError("confidence: chooses the margin for a share of displaced joints, and " + (
+            "margin_mm is given" if margin_mm is not None else "band_samples is 0"))
+    chosen = None if margin_mm is not None else 0.5 if confidence is None else number(confidence, "confidence")
     known = Motions(joint._native)
     options = {
         **cut_options(cut, share, margin_mm, deepest_mm, within_mm, burr_mm, edge_mm),
         "keep_mobile": kept_vertices(keep, joint.mobile, "keep"), "keep_fixed": kept_vertices(keep_fixed, joint.fixed, "keep_fixed"),
         "curve_points": count(curve_points, "curve_points", 0, 1000),
-        "band": band_of(band_samples, seed),
+        "band": band_of(band_samples, seed), "confidence": chosen,
         "count_bearing": word(bearing, "bearing", BearingRule) == "count",
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm")}
     found = _native.resection(
@@ -233,12 +283,13 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         return motion_limit_of(each, known, of)
 
     targets = []
-    for i, (motion, asked, planned, before, after, blocked) in enumerate(found["targets"]):
+    for motion, asked, planned, before, after, blocked, share, band_before, band, other, *promised in found["targets"]:
         targets.append(ReachedTarget(motion, asked, planned, limit_of(before, joint), limit_of(after, without),
-                                     blocked and Blocked(*blocked), found["bands"][i] if found["bands"] else None))
+                                     blocked and Blocked(*blocked), share, band_before, band, other and OtherCentre(*other), *promised))
     return Resection(
         without, _cut_of(found["mobile"]), _cut_of(found["fixed"]), tuple(targets),
         tuple(limit_of(each, joint) for each in found["before"]), tuple(limit_of(each, without) for each in found["after"]),
         tuple(found["gain_deg"]), found["shapes"] or {},
-        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], remarked(found["notes"]),
+        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"],
+        found["confidence"], found["displaced"], tuple(ResectionAlternative(*each) for each in found["alternatives"]), remarked(found["notes"]),
         found["caveats"], found["plan"])

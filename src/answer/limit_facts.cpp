@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "condyle/joint_checks.hpp"
+#include "condyle/resection.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
 #include "motion/rom/socket_hour.hpp"
@@ -61,6 +62,18 @@ bool is_short(const BoneReference& reference, const motion::MotionLimit& limit) 
 std::optional<double> clock_hour(const RangeAnswer& answer, const motion::MotionLimit& limit) {
   if (!answer.joint.is_hip() || !limit.end.contact) return std::nullopt;
   return motion::socket_hour(answer.clock, answer.bearing.surface, limit.end.contact->fixed_point);
+}
+
+double degrees_turned(Angle turned, const motion::Motion& motion) noexcept {
+  return turned == motion.range ? plan::asked_degrees(turned) : turned.degrees();
+}
+
+std::string quoted_band(const motion::LimitBand& band, const motion::Motion& motion) {
+  const auto end = [&](Angle turned) {
+    return (turned < motion.range ? "" : ">") + core::formatted("%.0f", turned.degrees());
+  };
+  const std::string low = end(band.p5), high = end(band.p95);
+  return low == high || ">" + low == high ? high : low + "\xE2\x80\x93" + high;
 }
 
 std::string guarantee_text(const motion::MotionLimit& limit) {

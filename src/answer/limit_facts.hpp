@@ -55,6 +55,12 @@ inline constexpr std::string_view normal_hip_range_source = "AAOS 1965";
 /// other than hips, without contact, and far from the rim.
 std::optional<double> clock_hour(const RangeAnswer& answer, const motion::MotionLimit& limit);
 
+/// Degrees over which a motion went: its range by the number that was given, which 120 degrees in radians are not.
+double degrees_turned(Angle turned, const motion::Motion& motion) noexcept;
+/// "126–135", "88–>120" where 5 % of the displaced joints reach the end of the motion's range, ">120" where all but 5 % do: a band as it may
+/// be quoted.
+std::string quoted_band(const motion::LimitBand& band, const motion::Motion& motion);
+
 /// Guarantee of the limit, in one sentence.
 std::string guarantee_text(const motion::MotionLimit& limit);
 /// The same of a limit with a depth allowed, which is searched for and not exact.

@@ -42,13 +42,10 @@ std::vector<Change> changes_between(const Joint& joint, std::span<const motion::
 void note_centres(const Joint& joint, std::span<const motion::Motion> motions,
                   const motion::RangeOptions& range, const motion::BearingSurface& surface,
                   std::vector<RangeNote>& notes) {
-  if (!surface.socket || motions.empty()) return;
-  const Vec3 head = pose_at(joint.coordinates(), range.overlap.reference_pose) * surface.head.centre;
-  const Vec3& socket = surface.socket->centre;
-  const double apart = (socket - head).norm();
-  // A larger head than usual turns as far about a centre that is as far off.
-  if (apart <= std::min(centres_apart_mm, by_head(centres_apart_mm, surface.head))) return;
-  const std::vector<Change> changes = changes_between(joint, motions, range, head, socket);
+  const auto centres = answer::centres_apart(joint, range, surface);
+  if (!centres || motions.empty()) return;
+  const double apart = (centres->socket - centres->head).norm();
+  const std::vector<Change> changes = changes_between(joint, motions, range, centres->head, centres->socket);
   const Change &most = changes.back(), &middle = changes[changes.size() / 2];
   std::string text = formatted("head and socket have their centres %.1f mm apart: ", apart);
   text += formatted("limits about the socket's centre instead of the head's differ by up to %.1f degrees (",
@@ -218,6 +215,18 @@ void note_narrow_margin(const Joint& joint, const motion::NarrowMargin& narrow,
 }
 
 }  // namespace
+
+std::optional<answer::CentresApart> answer::centres_apart(const Joint& joint,
+                                                          const motion::RangeOptions& range,
+                                                          const motion::BearingSurface& surface) {
+  if (!surface.socket) return std::nullopt;
+  const Vec3 head = pose_at(joint.coordinates(), range.overlap.reference_pose) * surface.head.centre;
+  const Vec3& socket = surface.socket->centre;
+  // A larger head than usual turns as far about a centre that is as far off.
+  if ((socket - head).norm() <= std::min(centres_apart_mm, by_head(centres_apart_mm, surface.head)))
+    return std::nullopt;
+  return CentresApart{head, socket};
+}
 
 std::string_view name_of(RangeNoteCode code) noexcept {
   switch (code) {

@@ -1,11 +1,19 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
 
 #include "answer/check_gains.hpp"
+#include "answer/limit_facts.hpp"
+#include "answer/surface_notes.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "motion/rom/displaced_joint.hpp"
+#include "motion/rom/displacement.hpp"
 #include "plan/check_target.hpp"
 
 namespace condyle {
@@ -13,9 +21,18 @@ namespace {
 
 using core::formatted;
 
-/// Margins that are tried for a band: so far apart, this the largest, and halved between two until they are so near, mm.
-constexpr double band_margin_step_mm = 0.5, largest_band_margin_mm = 4, band_margin_within_mm = 0.13;
-constexpr int most_band_plans = 11;
+/// Margins that are tried for a share of displaced joints: the largest, mm, and the steps up to it while the share is not reached; the first by
+/// what a mm of margin usually gives. It is found once the share ends each motion so little beyond its target, or the margin is so near to one
+/// that is too small.
+constexpr double largest_margin_mm = 4, least_step_mm = 0.1, most_step_mm = 1, usual_deg_per_mm = 12;
+constexpr double found_within_deg = 0.25, found_within_mm = 0.05;
+constexpr int most_margins = 12;
+/// Bone that stays may be in the way of one margin and not of a wider one: so much farther it is tried again, so often.
+constexpr double after_failure_mm = 0.2;
+constexpr int most_failures = 4;
+
+/// The share whose plan is given beside the requested one.
+constexpr double other_confidence = 0.8;
 
 /// How much bone may go beside what must, without a note: a share of that, and mm3.
 constexpr double unasked_share = 0.1, unasked_mm3 = 0.5;
@@ -23,8 +40,8 @@ constexpr double unasked_share = 0.1, unasked_mm3 = 0.5;
 /// An alpha angle that falls by less stays as it was, as far as the contour shows.
 constexpr double alpha_unchanged_deg = 1;
 
-/// A limit that changes by less counts as unchanged.
-constexpr double no_change_deg = 0.05;
+/// A limit that changes by less counts as unchanged, and by less than the second the cut does not move it.
+constexpr double no_change_deg = 0.05, unmoved_deg = 1e-6;
 
 /// Counts the cuts that are done, of as many as there may be.
 class Cuts {
@@ -178,15 +195,37 @@ Joint with_finer_triangles(const plan::Resection& resection) {
   return joint;
 }
 
-/// A limit's gain through smaller triangles does not count as a gain of the cut.
+/// What the requested share of displaced joints gains at the least in a motion.
+Angle gain_of_share(const motion::LimitBand& before, const motion::LimitBand& after, double share) {
+  std::vector<double> gains;
+  for (std::size_t i = 0; i < before.turned.size(); ++i)
+    gains.push_back((after.turned[i] - before.turned[i]).radians());
+  std::sort(gains.begin(), gains.end());
+  return Angle::radians(motion::quantile(gains, 1 - share));
+}
+
+/// A limit's gain through smaller triangles does not count as a gain of the cut. Without a gain the limit is the one before.
 void take_gains(ResectionAnswer& answer, const Joint& finer, const motion::RangeOptions& range,
                 std::span<const motion::Motion> motions) {
   const std::vector<motion::MotionLimit> limits = motion::RangeOfMotion(finer, range).limits(motions);
   for (std::size_t i = 0; i < limits.size(); ++i) {
-    const Angle was = answer.before[i].end.turned, is = limits[i].end.turned;
-    const Angle gained = answer.after[i].end.turned - was, by_triangles = is - was;
-    answer.gain.push_back(
-        gained > Angle() && by_triangles > Angle() ? std::max(gained - by_triangles, Angle()) : gained);
+    const Angle was = answer.before[i].end.turned, is = limits[i].end.turned, by_triangles = is - was;
+    const auto of_cut = [&](Angle gained) {
+      return gained > Angle() && by_triangles > Angle() ? std::max(gained - by_triangles, Angle()) : gained;
+    };
+    motion::MotionLimit& after = answer.after[i];
+    answer.gain.push_back(of_cut(after.end.turned - was));
+    const bool is_unmoved = std::abs(answer.gain[i].degrees()) < unmoved_deg;
+    if (is_unmoved)
+      after.end.turned = was, after.end.reason = answer.before[i].end.reason, answer.gain[i] = {};
+    for (std::size_t t = 0; t < answer.promises.size(); ++t) {
+      plan::ReachOutcome& outcome = answer.resection.targets[t];
+      if (outcome.target.motion.name != after.motion.name) continue;
+      outcome.after.end.turned = after.end.turned;
+      if (answer.promises[t].after && !is_unmoved)
+        answer.gain[i] = of_cut(gain_of_share(*answer.promises[t].before, *answer.promises[t].after,
+                                              answer.confidence.value_or(0.5)));
+    }
     if (is.degrees() > was.degrees() + no_change_deg)
       answer.notes.push_back({ResectionNoteCode::finer_triangles,
                               motions[i].name + " ends at " + in_degrees(was) + " degrees, and at " +
@@ -213,76 +252,230 @@ void note_gains(ResectionAnswer& answer) {
     answer.notes.push_back({ResectionNoteCode::no_gain, "these motions gain nothing: " + same});
 }
 
-/// A plan with its margin, and what displaced joints reach with it.
-struct Banded {
-  plan::Resection resection;
-  std::vector<motion::LimitBand> bands = {};
-  bool reaches = false;  ///< every target that nothing blocks, in 95 % of them
-  std::vector<bool> blocked = {};
+/// Finds the smallest margin with which a share of displaced joints reaches the targets: what displaces a joint moves its surfaces towards
+/// each other from any side, which a plan for more degrees would not meet.
+class MarginSearch {
+ public:
+  MarginSearch(const ResectionRequest& request, const motion::BandOptions& displaced, const Control& control,
+               Cuts& cuts)
+      : request_(request), displaced_(displaced), control_(control), cuts_(cuts) {
+    for (const plan::ReachTarget& target : request.resection.targets) motions_.push_back(target.motion);
+  }
+
+  /// Adds a cut with this margin; false if it was stopped, or if kept bone has no room for it that it had for the first.
+  bool add(double margin_mm, plan::Resection cut) {
+    if (!tried_.empty() && blocked(cut) != blocked(tried_.begin()->second.resection)) return false;
+    auto bands = motion::bands_without_widths(cut.joint, motions_, request_.resection.range, displaced_,
+                                              {.stop = control_.stop});
+    if (!bands) return false;
+    Tried tried{std::move(cut), {}};
+    for (motion::LimitBand& band : *bands) {
+      std::sort(band.turned.begin(), band.turned.end(), std::greater<>());
+      tried.turned.push_back(std::move(band.turned));
+    }
+    tried_.emplace(margin_mm, std::move(tried));
+    return true;
+  }
+
+  /// Empty if none was found, or if it was stopped.
+  std::optional<double> margin_for(double share) {
+    for (int margins = 0;; ++margins) {
+      auto low = tried_.end(), high = tried_.begin();
+      while (high != tried_.end() && beyond_deg(high->second, share) < 0) low = high++;
+      const bool none = high == tried_.end();
+      if (none ? std::max(low->first, failed_mm_) >= largest_margin_mm || failures_ == most_failures ||
+                     margins == most_margins
+               : low == tried_.end() || margins == most_margins || is_found(*low, *high, share))
+        return none ? std::nullopt : std::optional(high->first);
+      const double next = none ? wider(low, share) : between(*low, *high, share);
+      plan::ResectionOptions options = request_.resection;
+      options.margin_mm = next;
+      std::optional<plan::Resection> cut;
+      try {
+        cut = cuts_(options);
+      } catch (const MeshError&) {  // so much cannot be cut
+      }
+      if (cut && add(next, std::move(*cut))) continue;
+      if (control_.stop.stop_requested()) return std::nullopt;
+      if (!none) return high->first;
+      failed_mm_ = next, ++failures_;
+    }
+  }
+
+  /// The widest with which there is a cut, and the widest that was tried.
+  double widest_mm() const { return tried_.rbegin()->first; }
+  double tried_to_mm() const { return std::max(widest_mm(), failed_mm_); }
+  const plan::Resection& cut(double margin_mm) const { return tried_.at(margin_mm).resection; }
+
+ private:
+  struct Tried {
+    plan::Resection resection;
+    std::vector<std::vector<Angle>> turned;  ///< of each target, by the displaced joints, descending
+  };
+  using Each = std::map<double, Tried>;
+
+  static std::vector<bool> blocked(const plan::Resection& cut) {
+    std::vector<bool> by_target;
+    for (const plan::ReachOutcome& target : cut.targets) by_target.push_back(target.blocked.has_value());
+    return by_target;
+  }
+
+  /// By how much the share reaches more than every target that nothing blocks; below 0 less.
+  double beyond_deg(const Tried& tried, double share) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      const std::vector<Angle>& turned = tried.turned[i];
+      const double needed = std::ceil(share * static_cast<double>(turned.size()) - 1e-9);
+      if (!tried.resection.targets[i].blocked)
+        least = std::min(least, (turned[static_cast<std::size_t>(std::max(needed, 1.0)) - 1] -
+                                 request_.resection.targets[i].reach)
+                                    .degrees());
+    }
+    return least;
+  }
+
+  bool is_found(const Each::value_type& low, const Each::value_type& high, double share) const {
+    return high.first - low.first <= found_within_mm || beyond_deg(high.second, share) <= found_within_deg;
+  }
+
+  /// Where the line through the last two margins is at the target, if there are two.
+  double wider(Each::const_iterator last, double share) const {
+    const double lacks = found_within_deg / 2 - beyond_deg(last->second, share);
+    double slope = usual_deg_per_mm;
+    if (last != tried_.begin()) {
+      const auto& [margin_mm, before] = *std::prev(last);
+      slope = (beyond_deg(last->second, share) - beyond_deg(before, share)) / (last->first - margin_mm);
+    }
+    const double step = slope > 0 ? lacks / slope : most_step_mm;
+    const double next = last->first + std::clamp(step, least_step_mm, most_step_mm);
+    return std::min(failed_mm_ > last->first ? failed_mm_ + after_failure_mm : next, largest_margin_mm);
+  }
+
+  double between(const Each::value_type& low, const Each::value_type& high, double share) const {
+    const double from = beyond_deg(low.second, share), to = beyond_deg(high.second, share);
+    const double part = std::clamp((found_within_deg / 2 - from) / (to - from), 0.1, 0.9);
+    return low.first + part * (high.first - low.first);
+  }
+
+  const ResectionRequest& request_;
+  const motion::BandOptions& displaced_;
+  const Control& control_;
+  Cuts& cuts_;
+  std::vector<motion::Motion> motions_;
+  Each tried_;
+  double failed_mm_ = 0;  ///< the last one that was too wide for the bone
+  int failures_ = 0;
 };
 
-/// Empty if it was stopped, or if so much cannot be cut.
-std::optional<Banded> banded(const ResectionRequest& request, const motion::BandOptions& displaced,
-                             double margin_mm, const Control& control, Cuts& cuts,
-                             std::optional<plan::Resection> cut = {}) {
-  plan::ResectionOptions options = request.resection;
-  options.margin_mm = margin_mm;
-  try {
-    if (!cut) cut = cuts(options);
-  } catch (const MeshError&) {
-    if (margin_mm == request.resection.margin_mm) throw;
+/// The plan with which the requested share reaches the targets; false if it was stopped.
+bool reach_share(const ResectionRequest& request, const motion::BandOptions& displaced,
+                 const Control& control, Cuts& cuts, ResectionAnswer& answer) {
+  MarginSearch search(request, displaced, control, cuts);
+  if (!search.add(answer.margin_mm, std::move(answer.resection))) return false;
+  std::optional<double> margin_mm;
+  for (const double share : {*request.confidence, other_confidence}) {
+    if (margin_mm && share == *request.confidence) continue;
+    const auto found = search.margin_for(share);
+    if (control.stop.stop_requested()) return false;
+    if (share == *request.confidence) margin_mm = found.value_or(search.widest_mm());
+    if (found)
+      answer.alternatives.push_back({share, *found, search.cut(*found).volume_mm3()});
+    else
+      answer.notes.push_back(
+          {ResectionNoteCode::band_not_reached,
+           formatted("no margin up to %.3g mm reaches the targets in %.4g %% of %zu displaced joints",
+                     search.tried_to_mm(), 100 * share, displaced.samples)});
   }
-  if (!cut) return std::nullopt;
-  std::vector<motion::Motion> motions;
-  for (const plan::ReachTarget& target : options.targets) motions.push_back(target.motion);
-  auto bands = motion::limit_bands(cut->joint, motions, options.range, displaced, control);
-  if (!bands) return std::nullopt;
-  Banded plan{std::move(*cut), std::move(*bands), true};
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    const bool blocked = plan.resection.targets[i].blocked.has_value();
-    if (!blocked && plan.bands[i].p5 < options.targets[i].reach) plan.reaches = false;
-    plan.blocked.push_back(blocked);
-  }
-  return plan;
+  answer.margin_mm = *margin_mm;
+  answer.resection = search.cut(*margin_mm);
+  return true;
 }
 
-/// Plans with larger margins until the lower end of each band is at its target: what displaces a joint moves its surfaces towards each
-/// other from any side, which a plan for more degrees would not meet. False if it was stopped.
-bool reach_bands(const ResectionRequest& request, const motion::BandOptions& displaced,
-                 const Control& control, Cuts& cuts, ResectionAnswer& answer) {
-  double low = request.resection.margin_mm, high = low;
-  auto plan = banded(request, displaced, low, control, cuts, std::move(answer.resection));
-  if (!plan) return false;
-  while (!plan->reaches && high < largest_band_margin_mm) {
-    auto wider = banded(request, displaced, high + band_margin_step_mm, control, cuts);
-    if (control.stop.stop_requested()) return false;
-    // A margin that kept bone has no room for is none.
-    if (!wider || wider->blocked != plan->blocked) break;
-    low = high, high += band_margin_step_mm;
-    plan = std::move(wider);
+/// Bands of all motions before and after the cut, and in how many displaced joints it reaches the targets; false if it was stopped.
+bool judge(const Joint& before, const ResectionRequest& request, const motion::BandOptions& displaced,
+           const Control& control, ResectionAnswer& answer) {
+  std::vector<motion::Motion> motions = request.motions;
+  for (const plan::ReachTarget& target : request.resection.targets) motions.push_back(target.motion);
+  const plan::Resection& cut = answer.resection;
+  auto bands = motion::bands_without_widths(before, motions, request.resection.range, displaced, control);
+  auto after = bands;
+  if (bands && (cut.mobile || cut.fixed))
+    after = motion::bands_without_widths(cut.joint, motions, request.resection.range, displaced, control);
+  if (!bands || !after) return false;
+  answer.displaced = displaced.samples;
+  for (std::size_t i = 0; i < cut.targets.size(); ++i) {
+    TargetPromise& promise = answer.promises[i];
+    promise.before = (*bands)[request.motions.size() + i];
+    promise.after = (*after)[request.motions.size() + i];
+    const auto& turned = promise.after->turned;
+    const auto reaches = std::count_if(
+        turned.begin(), turned.end(), [&](Angle each) { return each >= request.resection.targets[i].reach; });
+    promise.confidence_reached = static_cast<double>(reaches) / static_cast<double>(turned.size());
   }
-  while (plan->reaches && high - low > band_margin_within_mm) {
-    const double middle = (low + high) / 2;
-    auto between = banded(request, displaced, middle, control, cuts);
-    if (control.stop.stop_requested()) return false;
-    if (!between || between->blocked != plan->blocked) break;
-    if (between->reaches)
-      high = middle, plan = std::move(between);
-    else
-      low = middle;
-  }
-  answer.resection = std::move(plan->resection);
-  answer.bands = std::move(plan->bands);
-  answer.margin_mm = high;
-  for (std::size_t i = 0; i < answer.bands.size(); ++i) {
-    const plan::ReachTarget& target = request.resection.targets[i];
-    if (answer.bands[i].p5 < target.reach)
-      answer.notes.push_back({ResectionNoteCode::band_not_reached,
-                              target.motion.name + ": in 5 % of displaced joints it ends at " +
-                                  in_degrees(answer.bands[i].p5) + " degrees or before, short of " +
-                                  in_degrees(target.reach)});
-  }
+  bands->resize(request.motions.size()), after->resize(request.motions.size());
+  answer.bands_before = std::move(*bands), answer.bands_after = std::move(*after);
   return true;
+}
+
+/// The targets before and after the cut if the joint turned about the other one of its two centres.
+void add_other_centre(const Joint& before, const motion::BearingFinding& bearing,
+                      const motion::RangeOptions& range, ResectionAnswer& answer) {
+  const auto apart = bearing.surface && before.is_hip()
+                         ? answer::centres_apart(before, range, *bearing.surface)
+                         : std::nullopt;
+  if (!apart) return;
+  // The joint's own centre is the origin.
+  const bool is_socket = apart->socket.norm() > apart->head.norm();
+  const std::array centres{is_socket ? apart->socket : apart->head};
+  const plan::Resection& cut = answer.resection;
+  std::vector<motion::Motion> motions;
+  for (const plan::ReachOutcome& outcome : cut.targets) motions.push_back(outcome.target.motion);
+  const auto now = motion::limits_about(before, motions, range, centres),
+             then = motion::limits_about(cut.joint, motions, range, centres);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const plan::ReachOutcome& outcome = cut.targets[i];
+    const bool reaches = outcome.after.end.turned >= outcome.target.reach;
+    answer.promises[i].other_centre = {is_socket ? BodyRole::fixed : BodyRole::mobile, now[i].turned,
+                                       then[i].turned, (then[i].turned >= outcome.target.reach) == reaches};
+    answer.promises[i].is_plan = !(cut.mobile || cut.fixed) || then[i].turned >= outcome.before.end.turned;
+  }
+}
+
+/// "reaches 42.6 in 50 % of 200 displaced hips, 281 mm3; in 80 %: 455 mm3; 42.6 deg about the head's centre, 25.1 about the socket's: not
+/// decided".
+std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
+  const plan::ReachOutcome& outcome = answer.resection.targets[i];
+  const auto& [reached, before, after, other, is_plan, text] = answer.promises[i];
+  const double reach = outcome.target.reach.degrees(), ends = outcome.after.end.turned.degrees();
+  std::string said = outcome.after.end.turned >= outcome.target.reach
+                         ? formatted("reaches %.1f", reach)
+                         : formatted("ends at %.1f, short of %.1f", ends, reach);
+  if (reached)
+    said +=
+        formatted("%s in %.0f %% of %zu displaced %s", said.starts_with("ends") ? ", which it reaches" : "",
+                  100 * *reached, answer.displaced, answer.resection.joint.is_hip() ? "hips" : "joints") +
+        formatted(", %.4g mm3", answer.resection.volume_mm3());
+  for (const ResectionAlternative& each : answer.alternatives)
+    if (each.confidence != answer.confidence)
+      said += formatted("; in %.4g %%: %.4g mm3", 100 * each.confidence, each.volume_mm3);
+  if (!other) return said;
+  const char* const names[] = {"the head's", "the socket's"};
+  const bool is_socket = other->of == BodyRole::fixed;
+  const std::string centres =
+      formatted("%.1f deg about %s centre, %.1f about %s: %s", ends, names[!is_socket],
+                other->after.degrees(), names[is_socket], other->is_decided ? "decided" : "not decided");
+  if (is_plan) return said + "; " + centres;
+  return "no plan: " + centres + formatted(", and less than now, %.1f", outcome.before.end.turned.degrees());
+}
+
+void note_promises(ResectionAnswer& answer) {
+  for (std::size_t i = 0; i < answer.promises.size(); ++i) {
+    TargetPromise& promise = answer.promises[i];
+    promise.text = promise_text(answer, i);
+    if (promise.other_centre && !(promise.is_plan && promise.other_centre->is_decided))
+      answer.notes.push_back({promise.is_plan ? ResectionNoteCode::not_decided : ResectionNoteCode::no_plan,
+                              answer.resection.targets[i].target.motion.name + ": " + promise.text});
+  }
 }
 
 /// False if it was stopped.
@@ -317,6 +510,10 @@ std::string_view name_of(ResectionNoteCode code) noexcept {
       return "target_blocked";
     case ResectionNoteCode::band_not_reached:
       return "band_not_reached";
+    case ResectionNoteCode::not_decided:
+      return "not_decided";
+    case ResectionNoteCode::no_plan:
+      return "no_plan";
     case ResectionNoteCode::bearing_is_swept:
       return "bearing_is_swept";
     case ResectionNoteCode::neck_is_narrowed:
@@ -396,14 +593,22 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
   const auto held = held_translation(of, {});
   const Joint at = held && *held != Vec3::Zero() ? held_at(of.joint, *held) : of.joint;
   asked.resection = plan::with_gains_resolved(at, asked.resection);
+  if (asked.confidence && !(*asked.confidence > 0 && *asked.confidence < 1))
+    throw UsageError("resection: the confidence must be above 0 and below 1");
+  if (!asked.bands) asked.confidence.reset();
   Cuts cuts(at, control,
-            1 + asked.resection.targets.size() * asked.curve_points + (asked.bands ? most_band_plans : 0));
+            1 + asked.resection.targets.size() * asked.curve_points + (asked.confidence ? most_margins : 0));
   auto first = cuts(asked.resection);
   if (!first) return std::nullopt;
   ResectionAnswer answer{.resection = std::move(*first)};
   answer.margin_mm = asked.resection.margin_mm;
-  if (asked.bands)
-    if (!reach_bands(asked, band_options(of, *asked.bands), control, cuts, answer)) return std::nullopt;
+  answer.confidence = asked.confidence;
+  answer.promises.resize(asked.resection.targets.size());
+  if (asked.bands) {
+    const motion::BandOptions displaced = band_options(of, *asked.bands);
+    if (asked.confidence && !reach_share(asked, displaced, control, cuts, answer)) return std::nullopt;
+    if (!judge(at, asked, displaced, control, answer)) return std::nullopt;
+  }
   const motion::RangeOfMotion range(at, asked.resection.range);
   answer.before = range.limits(asked.motions);
   const motion::RangeOfMotion range_after(answer.resection.joint, asked.resection.range);
@@ -417,6 +622,8 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
   if (asked.curve_points > 0 && !add_curve(asked, cuts, answer)) return std::nullopt;
   note_targets(answer);
   take_gains(answer, finer, asked.resection.range, asked.motions);
+  add_other_centre(at, range.bearing(), asked.resection.range, answer);
+  note_promises(answer);
   note_bones(answer);
   if (answer.resection.mobile || answer.resection.fixed)
     note_limits(answer, at, range.bearing(), range_after.bearing(), asked.resection.range);

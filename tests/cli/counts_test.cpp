@@ -22,7 +22,7 @@ struct CountOption {
 constexpr CountOption count_options[] = {
     {"rom joint.toml", "--band"},
     {"measure joint.toml", "--band"},
-    {"resect joint.toml --reach flexion=90", "--band"},
+    {"resect joint.toml --reach flexion=90", "--band", true},
     {"report joint.toml --out page.html", "--band"},
     {"study table.csv --out out", "--band"},
     {"rom joint.toml --band", "--seed", true},

@@ -85,8 +85,9 @@ TEST_F(Patients, HaveBothFemoraInOneLabel) {
 }
 
 TEST_F(Patients, OfMeshesHaveAPlanToo) {
-  const Ran ran =
-      run("hip hip_bone.ply femur.ply --side right --samples 0 --age 30 --plan \"fadir=+5\" --out planned");
+  const Ran ran = run(
+      "hip hip_bone.ply femur.ply --side right --samples 20 --age 30 --plan \"fadir=+5\" --confidence 0.6 "
+      "--out planned");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_FALSE(is_there("planned/left"));
   EXPECT_FALSE(is_there("planned/both.csv"));
@@ -97,9 +98,12 @@ TEST_F(Patients, OfMeshesHaveAPlanToo) {
     EXPECT_NE(text(file).find("\n[person]\nage = 30\n"), std::string::npos) << file;
   EXPECT_TRUE(is_there("planned/right/plan/resected.toml"));
   // The limits of one hip are printed as condyle rom prints them; then what was planned.
-  const std::string limits = run("rom planned/right/hip.toml").out;
+  const std::string limits = run("rom planned/right/hip.toml --band=20").out;
   ASSERT_TRUE(ran.out.starts_with(limits)) << ran.out;
   EXPECT_TRUE(ran.out.substr(limits.size()).starts_with("  right: planned: without ")) << ran.out;
+  EXPECT_GE(plan["targets"][0]["confidence_reached"], 0.6);
+  EXPECT_NE(ran.out.find(": " + plan["targets"][0]["text"].get<std::string>() + "\n"), std::string::npos)
+      << ran.out;
 }
 
 TEST_F(Patients, OfMeshesInAnotherUnitAreAnsweredWithANoteOnIt) {

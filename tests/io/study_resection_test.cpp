@@ -41,6 +41,7 @@ TEST_F(StudyOfCams, HasWhatTheLibraryAnswers) {
       .resection = {.targets = reach_targets(motion::hip_motions(), std::string(motion) + "=45")},
       .motions = {motion::motion_named(motion::hip_motions(), motion),
                   motion::motion_named(motion::hip_motions(), "flexion")},
+      .bands = {},
       .curve_points = 0};
   const ResectionAnswer expected = answer_resection({with_cam()}, request);
   const plan::CutBone& femur = *expected.resection.mobile;

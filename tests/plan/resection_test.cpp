@@ -20,6 +20,7 @@
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/winding_number.hpp"
+#include "motion/rom/displacement.hpp"
 #include "plan/sweep.hpp"
 #include "support/real_hip.hpp"
 
@@ -573,14 +574,111 @@ TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
                         {"cartilage", vertices, cartilage.vertices.size(), triangles,
                          cartilage.triangles.size(), PartContact::bearing}};
   const auto radius = [](const measure::HipMeasures& shape) { return *shape.femur.head_radius.value; };
-  const ResectionAnswer answer = answer_resection(
-      {joint}, {.resection = reaching({target("internal_rotation_at_90_flexion", 45)}), .curve_points = 0});
+  const ResectionAnswer answer =
+      answer_resection({joint}, {.resection = reaching({target("internal_rotation_at_90_flexion", 45)}),
+                                 .bands = {},
+                                 .curve_points = 0});
   ASSERT_TRUE(answer.resection.mobile);
   expect_reached(joint, answer.resection);
   EXPECT_NEAR(motion::find_bearing_surface(answer.resection.joint).surface->head.radius,
               parameters.head_radius_mm + 1, 0.05);
   EXPECT_NEAR(radius(*answer.shape_before), radius(measure::measure_hip(joint)), 1e-9);
   EXPECT_NEAR(radius(*answer.shape_after), radius(measure::measure_hip(joint)), 1e-9);
+}
+
+/// The joint as it turns about another point of its frame.
+Joint about(const Joint& joint, const Vec3& centre) {
+  Joint moved = joint;
+  for (Body Joint::*body : {&Joint::fixed, &Joint::mobile}) {
+    TriMesh mesh = (joint.*body).mesh;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] - centre);
+    (moved.*body).mesh = Mesh(std::move(mesh));
+    if ((moved.*body).head) (moved.*body).head->centre -= centre;
+  }
+  return moved;
+}
+
+// Counted by the exact limits of each displaced joint, made by hand of the same draws. Along the neck's own axis, and along that of the
+// motion, a displacement moves no limit: what is left is one of 16 mm's arc against a hole of 25, whose share with margin 0 is about half.
+TEST(Resection, ASharesMarginIsReachedInThatShareOfJointsThatAreDisplacedByHand) {
+  Case of{hip_of(socket(25, 30), neck(15))};
+  of.uncertainty = {.centre_mm = 0.5, .axes = Angle(), .surface_mm = 0, .surface_voxels = 0};
+  const BandRequest bands{.samples = 40};
+  const auto draws = motion::displacements(band_options(of, bands), 0);
+  double margin_mm = 0;
+  for (const double confidence : {0.5, 0.8}) {
+    ResectionRequest request{.resection = reaching({target("flexion", 60)}),
+                             .bands = bands,
+                             .confidence = confidence,
+                             .curve_points = 0};
+    request.resection.edge_mm = 1;
+    request.motions = {request.resection.targets[0].motion};
+    const ResectionAnswer answer = answer_resection(of, request);
+    const auto share_of = [&](const Joint& cut) {
+      std::size_t reached = 0;
+      for (const motion::Displacement& draw : draws)
+        reached += motion::RangeOfMotion(about(cut, draw.centre), {}).limit(request.motions[0]).end.turned >=
+                   request.resection.targets[0].reach;
+      return static_cast<double>(reached) / static_cast<double>(draws.size());
+    };
+    EXPECT_EQ(answer.promises[0].confidence_reached, share_of(answer.resection.joint));
+    EXPECT_GE(answer.promises[0].confidence_reached, confidence);
+    EXPECT_GT(answer.margin_mm, margin_mm);
+    // What is asked of the margin: with what it may be too large by, the share is not reached. 0.25 degrees are 0.07 mm at the neck.
+    request.resection.margin_mm = answer.margin_mm - 0.2;
+    EXPECT_LT(share_of(plan::resect(of.joint, request.resection).joint), confidence);
+    std::vector<double> gains;
+    for (std::size_t i = 0; i < draws.size(); ++i)
+      gains.push_back((answer.bands_after[0].turned[i] - answer.bands_before[0].turned[i]).degrees());
+    std::sort(gains.begin(), gains.end());
+    EXPECT_NEAR(answer.gain[0].degrees(), motion::quantile(gains, 1 - confidence), 1e-9);
+    margin_mm = answer.margin_mm;
+    // A margin that is given stays, and so do both numbers of a joint that nothing displaces.
+    request.confidence.reset();
+    request.resection.margin_mm = 0;
+    const ResectionAnswer given = answer_resection(of, request);
+    EXPECT_EQ(given.margin_mm, 0);
+    EXPECT_TRUE(given.alternatives.empty());
+    EXPECT_EQ(given.promises[0].confidence_reached, share_of(given.resection.joint));
+    EXPECT_LT(given.promises[0].confidence_reached, 0.6);
+  }
+}
+
+// The socket is said to lie so far off that about its centre the cut's own gain is lost, or not.
+TEST(Resection, AboutTheOtherCentreAPlanIsWhatTheJointThatIsMovedThereSays) {
+  const sample::SampleHip bones =
+      sample::sample_hip({.alpha_angle = Angle::degrees(70)}, sample::Scenario::one);
+  Joint joint = hip_of(bones.hip_bone, bones.femur);
+  const auto found = *motion::find_bearing_surface(joint).surface;
+  joint.mobile.head = found.head, joint.mobile.bearing_margin_mm = found.margin_mm;
+  const motion::Motion motion = target("internal_rotation_at_90_flexion", 45).motion;
+  for (const auto& [off, is_plan, is_decided] :
+       {std::tuple(Vec3(0, 0.5, 0), true, true), std::tuple(Vec3(0, 1.2, 0), true, true),
+        std::tuple(Vec3(0, -1.2, 0), true, false), std::tuple(Vec3(0, -4, 0), false, false)}) {
+    joint.fixed.head = Sphere{found.head.centre + off, found.socket->radius};
+    const ResectionAnswer answer =
+        answer_resection({joint}, {.resection = reaching({{motion, Angle::degrees(45)}}),
+                                   .motions = {motion},
+                                   .bands = {},
+                                   .curve_points = 0});
+    const TargetPromise& promise = answer.promises[0];
+    ASSERT_EQ(promise.other_centre.has_value(), off.norm() > 1) << off.transpose();
+    EXPECT_EQ(promise.is_plan, is_plan) << promise.text;
+    if (!promise.other_centre) continue;
+    EXPECT_EQ(promise.other_centre->is_decided, is_decided) << promise.text;
+    EXPECT_EQ(promise.text.starts_with("no plan: "), !is_plan) << promise.text;
+    const auto limit_deg = [&](const Joint& of) {
+      return motion::RangeOfMotion(about(of, joint.fixed.head->centre), {})
+          .limit(motion)
+          .end.turned.degrees();
+    };
+    EXPECT_NEAR(promise.other_centre->before.degrees(), limit_deg(joint), 1e-6);
+    EXPECT_NEAR(promise.other_centre->after.degrees(), limit_deg(answer.resection.joint), 1e-6);
+    const auto code = is_plan ? ResectionNoteCode::not_decided : ResectionNoteCode::no_plan;
+    EXPECT_EQ(std::any_of(answer.notes.begin(), answer.notes.end(),
+                          [&](const auto& note) { return note.code == code; }),
+              !is_decided);
+  }
 }
 
 // Nothing would be inside the one and nothing would be left of the other.

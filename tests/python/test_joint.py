@@ -261,10 +261,14 @@ def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     joint = condyle.read_joint(tmp_path / "hip.toml")
     reach = {"internal_rotation_at_90_flexion": 45}
     said = json.loads(subprocess.run(
-        [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "2", "--json", "--out",
+        [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "2", "--band=20", "--json", "--out",
          tmp_path / "plan"], check=True, capture_output=True, text=True).stdout)
     with pytest.warns(condyle.JointRemark):
-        plan = joint.resection(reach, curve_points=2)
+        plan = joint.resection(reach, curve_points=2, band_samples=20)
+    target, of_command = plan.targets[0], said["targets"][0]
+    assert (target.text, target.confidence_reached, target.is_plan) == tuple(of_command[key] for key in ("text", "confidence_reached", "is_plan"))
+    assert target.band == tuple(of_command["band"][key] for key in ("p5_deg", "median_deg", "p95_deg")) and target.other_centre is None
+    assert [each._asdict() for each in plan.alternatives] == said["alternatives"] and (plan.confidence, plan.displaced) == (0.5, 20)
     cut, = said["cuts"]
     assert plan.fixed is None and plan.mobile.volume_mm3 == plan.volume_mm3 == cut["volume_mm3"]
     assert plan.mobile.depth_mm.max() == cut["deepest_mm"] and plan.margin_mm == said["margin_mm"]
@@ -274,7 +278,7 @@ def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     assert list(plan.gain_deg) == [each["gain_deg"] for each in said["limits"]]
     assert plan.joint.name == "sample right hip, resected" and joint.planned == ""
     assert plan.joint.planned == f"without {plan.volume_mm3:.1f} mm3 of femur" == pickle.loads(pickle.dumps(plan.joint)).planned
-    gained = joint.resection({"internal_rotation_at_90_flexion": "+5"}, curve_points=0).targets[0]
+    gained = joint.resection({"internal_rotation_at_90_flexion": "+5"}, curve_points=0, band_samples=0).targets[0]
     assert gained.reach_deg == pytest.approx(gained.before.limit_deg + 5, abs=1e-9) and gained.after.limit_deg >= gained.reach_deg
     assert plan.measures["alpha_3_deg"] == tuple(
         next((each["before"], each["after"]) for each in said["measures"] if each["key"] == "alpha_3_deg"))
@@ -285,15 +289,18 @@ def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     assert pickle.loads(pickle.dumps(plan.joint)).range_of_motion(motion).limits[0].limit_deg == limit
     assert condyle.read_joint(tmp_path / "plan" / "resected.toml").range_of_motion(motion).limits[0].limit_deg == limit
     assert joint.with_mobile(plan.mobile.mesh).range_of_motion(motion).limits[0].limit_deg == limit
-    assert plan.joint.resection(reach, curve_points=0).mobile is None
+    assert plan.joint.resection(reach, curve_points=0, band_samples=0).mobile is None
     said = json.loads(subprocess.run(
-        [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "0", "--burr", "11", "--json"],
+        [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "0", "--burr", "11", "--band=0", "--json"],
         check=True, capture_output=True, text=True).stdout)
-    burr = joint.resection(reach, curve_points=0, burr_mm=11)
+    burr = joint.resection(reach, curve_points=0, burr_mm=11, band_samples=0)
     assert burr.mobile.burr_volume_mm3 == said["cuts"][0]["burr_volume_mm3"] > 0
     assert burr.mobile.burr_in_kept_mm == said["cuts"][0]["burr_in_kept_mm"]
-    kept = joint.resection(reach, curve_points=0, keep=np.ones(len(joint.mobile.vertices), bool))
+    kept = joint.resection(reach, curve_points=0, band_samples=0, keep=np.ones(len(joint.mobile.vertices), bool))
     assert kept.targets[0].blocked.by == "marked" and kept.volume_mm3 == 0
+    for given in ({"margin_mm": 0}, {"band_samples": 0}):
+        with pytest.raises(condyle.UsageError, match=f"confidence: .*{next(iter(given))} is"):
+            joint.resection(reach, confidence=0.5, **given)
     with pytest.raises(condyle.UsageError, match="share"):
         joint.resection(reach, share=0.5)
     with pytest.raises(condyle.UsageError, match="keep"):

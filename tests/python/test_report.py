@@ -25,9 +25,9 @@ def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, sampled, co
     sampled(tmp_path, "hip", "--alpha-angle", "70")
     joint = condyle.read_joint(tmp_path / "hip.toml")
     with pytest.warns(condyle.JointRemark):
-        plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=1)
+        plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=1, margin_mm=0)
     plan.joint.range_of_motion().write_report(tmp_path / "python.html", measures=True, plan=plan)
-    subprocess.run([command, "report", tmp_path / "hip.toml", "--measures", "--curve", "1", "--resect",
+    subprocess.run([command, "report", tmp_path / "hip.toml", "--measures", "--curve", "1", "--margin", "0", "--resect",
                     "internal_rotation_at_90_flexion=45", "--out", tmp_path / "command.html"], check=True, capture_output=True)
     ours, said = (text_of(tmp_path / name) for name in ("python.html", "command.html"))
     for block in (ours, said):

@@ -14,7 +14,7 @@ type Each<List extends readonly unknown[]> = List[number];
 
 export type { Interval };
 export type ArrayPlace = ReportText["arrays"][string];
-export type Band = Pick<Passed<typeof bandRecord>, "p5_deg" | "median_deg" | "p95_deg">;
+export type Band = Pick<Passed<typeof bandRecord>, "p5_deg" | "median_deg" | "p95_deg" | "text">;
 export type MotionAnswer = Passed<typeof limitRecord>;
 export type BoneReference = NonNullable<MotionAnswer["bone_reference"]>;
 export type RomAnswer = Of<"rom">;

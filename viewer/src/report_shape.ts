@@ -55,7 +55,7 @@ const cutSurface = orNull(object({ lowered: text, before: text, depth_mm: text }
 const plan = object({
   margin_mm: number,
   targets: list(object({
-    motion: text, reach_deg: number, planned_deg: number, before: end, after: end,
+    motion: text, reach_deg: number, planned_deg: number, before: end, after: end, text,
     blocked: orNull(object({ kept_by: oneOf("bearing", "depth", "zone", "marked"), body: bodyName, point_mm: three })),
   })),
   cuts: list(object({

@@ -117,7 +117,7 @@ export function headlineMotion(text: ReportText): MotionAnswer | null {
 
 /// The band if it is informative: a motion that nothing ends in its range ends in few displaced joints either.
 export function shownBand({ band, reason }: MotionAnswer): Band | null {
-  return band && (endsWithin(reason) || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
+  return band && (endsWithin(reason) || !band.text.startsWith(">")) ? band : null;
 }
 
 /// "134.8°", ">120°" if the range ends without contact.
@@ -134,7 +134,7 @@ export function limitAlone(motion: MotionAnswer): string {
 
 export function bandText(motion: MotionAnswer): string {
   const band = shownBand(motion);
-  return band ? words.bandOf(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "";
+  return band ? words.bandOf(band.text) : "";
 }
 
 export function limitText(motion: MotionAnswer): string {

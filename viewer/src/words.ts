@@ -292,7 +292,7 @@ export const words = {
   limitsCaption:
     "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: clinical range; ring: expected of living hips.",
   over: (limit: string) => `>${limit}`,
-  bandOf: (low: string, high: string) => `(${low}–${high})`,
+  bandOf: (ends: string) => `(${ends})`,
   limit: "limit",
   normal: "normal range",
   livingHips: "living hips (°)",
@@ -305,7 +305,7 @@ export const words = {
     impingement: "impingement", bearing: "bearing", unknown: "kind unknown", cut: "cut of the image: no limit", soft: "soft contact",
   } as Record<string, string>,
   band: "band",
-  bandEnds: (low: string, high: string) => `${low} to ${high}°`,
+  bandEnds: (ends: string) => `${ends}°`,
   errorBound: "error bound",
   goThere: (name: string) => `Go to the end of ${name}`,
   noLimits: "Limits cannot be computed: ",
@@ -345,6 +345,8 @@ export const words = {
   gain: "gain",
   unitHead: "unit",
   blocked: (motion: string, planned: string, by: string, body: string) => `${motion} ends at ${planned}°: ${by} of ${body} is in the way`,
+  /// What a plan promises of a motion, and in how many displaced joints.
+  promised: (motion: string, said: string) => `${motion}: ${said.replaceAll(" deg", "°").replaceAll("mm3", "mm³")}`,
   keptBy: {
     bearing: "the bearing surface", depth: "bone too deep to remove", zone: "bone outside the permitted zone", marked: "bone marked to stay",
   },

@@ -23,8 +23,11 @@ struct ResectionRequest {
   plan::ResectionOptions resection = {};
   /// Motions whose limits are given before and after; if empty, all that the case has.
   std::vector<motion::Motion> motions = {};
-  /// The margin is as much larger as it takes that each target is reached in 95 % of displaced joints.
-  std::optional<BandRequest> bands = {};
+  /// Joints displaced within what is uncertain, by which the plan is made and judged; empty: by the joint as given only.
+  std::optional<BandRequest> bands = BandRequest{};
+  /// Share of them, above 0 and below 1, in which each target is to be reached: the margin is as much larger as that takes. Empty: the
+  /// margin stays as it is.
+  std::optional<double> confidence = 0.5;
   /// Points of each target's curve of degrees against removed volume; 0 for none.
   std::size_t curve_points = 10;
 };
@@ -39,7 +42,9 @@ struct ResectionCurvePoint {
 enum class ResectionNoteCode : std::uint8_t {
   nothing_to_do,   ///< The joint reaches all targets uncut.
   target_blocked,  ///< Kept bone stops a motion short of its target.
-  band_not_reached,  ///< Not reached in 95 % of displaced joints: the range of the motion or kept bone ends before.
+  band_not_reached,  ///< Not reached in the requested share of displaced joints, or in 80 %: kept bone ends the motion before.
+  not_decided,  ///< A target is reached about the head's centre and not about the socket's, or the other way round.
+  no_plan,  ///< About the other centre the motion goes less far after the cut than about this one before it.
   bearing_is_swept,  ///< The other bone sweeps over bearing surface, whose contact counts for nothing.
   neck_is_narrowed,  ///< More than 30 % of the neck's width goes.
   no_gain,           ///< A limit is unchanged.
@@ -62,15 +67,45 @@ struct ResectionNote {
 /// Share of the neck's width that may go without a note.
 inline constexpr double neck_width_share = 0.3;
 
+/// What a plan for a share of displaced joints costs.
+struct ResectionAlternative {
+  double confidence, margin_mm, volume_mm3;
+};
+
+/// A motion before and after a cut if the joint turned about its other centre.
+struct AboutOtherCentre {
+  BodyRole of;  ///< the body whose sphere has that centre: the fixed one's is the socket
+  Angle before, after;
+  bool is_decided;  ///< the target is reached about both centres or about neither
+};
+
+/// What a cut promises of a target.
+struct TargetPromise {
+  std::optional<double> confidence_reached =
+      {};  ///< share of the displaced joints in which this cut reaches it
+  std::optional<motion::LimitBand> before = {}, after = {};
+  /// If head and socket are known with their centres over centres_apart_mm apart.
+  std::optional<AboutOtherCentre> other_centre = {};
+  bool is_plan = true;    ///< false: about the other centre it ends before where it ends now
+  std::string text = {};  ///< how far it goes, in how many joints, and about which centre: one line
+};
+
 struct ResectionAnswer {
   plan::Resection resection;
-  double margin_mm = 0;  ///< as planned: larger than requested where a band is to be reached
+  double margin_mm =
+      0;  ///< as planned: larger than requested where a share of displaced joints is to reach the targets
+  std::optional<double> confidence = {};     ///< as requested; empty where the margin was to stay
+  std::size_t displaced = 0;                 ///< joints by which it is judged
+  std::vector<TargetPromise> promises = {};  ///< one per target
+  std::vector<ResectionAlternative> alternatives =
+      {};  ///< the plan for the requested share, and the one for 80 %
   std::vector<motion::MotionLimit> before = {}, after = {};  ///< one per motion
-  std::vector<Angle> gain =
-      {};  ///< one per motion: what the cut adds, without what smaller triangles alone add
+  /// One per motion: what the cut adds, without what smaller triangles alone add; of a target what it adds in the requested share of displaced
+  /// joints, or half.
+  std::vector<Angle> gain = {};
   std::optional<measure::HipMeasures> shape_before = {}, shape_after = {};  ///< of a hip
-  std::vector<motion::LimitBand> bands = {};    ///< one per target if requested: after
-  std::vector<ResectionCurvePoint> curve = {};  ///< by target, ascending
+  std::vector<motion::LimitBand> bands_before = {}, bands_after = {};       ///< one per motion if requested
+  std::vector<ResectionCurvePoint> curve = {};                              ///< by target, ascending
   std::vector<ResectionNote> notes = {};
   std::vector<RangeNote> limit_notes =
       {};  ///< what the limits after the cut must be read with, as those of answer_range()
@@ -97,8 +132,9 @@ struct NamedReach {
 /// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:
 /// "cuts", "joints of the band".
 ///
-/// Throws as resect(), measure_hip() and limit_bands() do. A second for each cut of a hip of 20,000 triangles: one, one for each
-/// point of a curve, and some for a band.
+/// A motion that the cut gives nothing ends after it where it did before. Throws as resect(), measure_hip() and limit_bands() do, and
+/// UsageError for a share outside its range. A second for each cut of a hip of 20,000 triangles: one, one for each point of a curve, and
+/// about five to find the margin of a share of displaced joints.
 [[nodiscard]] std::optional<ResectionAnswer> answer_resection(const Case& joint,
                                                               const ResectionRequest& request,
                                                               const Control& control);

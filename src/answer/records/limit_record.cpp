@@ -60,12 +60,13 @@ LivingRecord living_record(const LivingLimit& living) {
   return record;
 }
 
-BandRecord band_record(const motion::LimitBand& band, const Joint& joint) {
+BandRecord band_record(const motion::LimitBand& band, const motion::Motion& motion, const Joint& joint) {
   const auto& [centre, axes, surface, parameters] = band.width_from;
   return {
-      .p5_deg = band.p5.degrees(),
-      .median_deg = band.median.degrees(),
-      .p95_deg = band.p95.degrees(),
+      .p5_deg = degrees_turned(band.p5, motion),
+      .median_deg = degrees_turned(band.median, motion),
+      .p95_deg = degrees_turned(band.p95, motion),
+      .text = quoted_band(band, motion),
       .width_from = {centre.degrees(), axes.degrees(), surface.degrees(),
                      has_uncertain_parameters(joint) ? std::optional(parameters.degrees()) : std::nullopt},
       .share_without_contact = band.share_without_contact,
@@ -98,7 +99,7 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
   const auto given = [&](JointAngle angle) { return GivenDegrees{angle_of(start, angle)}; };
   LimitRecord record{
       .name = motion.name,
-      .limit_deg = end.turned.degrees(),
+      .limit_deg = degrees_turned(end.turned, motion),
       .reason = end.reason,
       .error_bound_deg = end.error_bound.degrees(),
       .vary = motion.vary,
@@ -163,7 +164,7 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
     const auto& zone = answer.zones[i];
     record.zone = zone ? std::optional(zone_record(*zone)) : std::nullopt;
   }
-  if (!answer.bands.empty()) record.band = band_record(answer.bands[i], joint);
+  if (!answer.bands.empty()) record.band = band_record(answer.bands[i], motion, joint);
   return record;
 }
 

@@ -42,6 +42,7 @@ struct BandWidthRecord {
 };
 struct BandRecord {
   double p5_deg, median_deg, p95_deg;
+  std::string text;
   BandWidthRecord width_from;
   double share_without_contact, share_in_contact_at_start;
 };
@@ -170,7 +171,7 @@ inline constexpr auto table<BandWidthRecord> =
            field_if_any("parameters_deg", &BandWidthRecord::parameters_deg));
 template <>
 inline constexpr auto table<BandRecord> = record("BandRecord", "The limit over the joints of a band.",
-                                                 CONDYLE_KEYS(BandRecord, p5_deg, median_deg, p95_deg,
+                                                 CONDYLE_KEYS(BandRecord, p5_deg, median_deg, p95_deg, text,
                                                               width_from, share_without_contact,
                                                               share_in_contact_at_start));
 template <>
@@ -395,7 +396,8 @@ inline constexpr auto table<LimitRecord> = record(
     field_if_any("zone", &LimitRecord::zone,
                  "only with `--past`, below; null for motions that did not end by contact"),
     field("band", &LimitRecord::band,
-          "`p5_deg`, `median_deg`, `p95_deg` of the limit over the joints of the band; `width_from`: what "
+          "`p5_deg`, `median_deg`, `p95_deg` of the limit over the joints of the band; `text`, such as "
+          "`\"88–>120\"` where 5 % of them end with the range; `width_from`: what "
           "the width, 5 to 95 %, would be if only the centre (`centre_deg`), the axes (`axes_deg`), the "
           "surfaces (`surface_deg`) or parameters of parts (`parameters_deg`, if they have standard "
           "deviations) were uncertain; `share_without_contact`, `share_in_contact_at_start` of the joints, 0 "

@@ -119,8 +119,8 @@ std::string both_sides_csv(const RomResult& left, const RomResult& right) {
     const auto add = [&](const RangeAnswer& answer, std::size_t i) {
       cells.push_back(number(limit_deg(answer.limits[i])));
       const bool has_band = !answer.bands.empty() && limit_deg(answer.limits[i]);
-      cells.push_back(has_band ? fmt::format("{}", answer.bands[i].p5.degrees()) : "");
-      cells.push_back(has_band ? fmt::format("{}", answer.bands[i].p95.degrees()) : "");
+      cells.push_back(has_band ? number(degrees_turned(answer.bands[i].p5, answer.limits[i].motion)) : "");
+      cells.push_back(has_band ? number(degrees_turned(answer.bands[i].p95, answer.limits[i].motion)) : "");
     };
     add(left.answer, pair.left);
     add(right.answer, pair.right);

@@ -5,17 +5,16 @@
 #include <cmath>
 #include <string>
 
-#include "condyle/limit_band.hpp"
+#include "answer/limit_facts.hpp"
 
 namespace condyle::io {
 
 /// ">120": where the range ends without contact; the band behind it where some displaced joints do meet in the range.
-inline std::string beyond_range(Angle range, const motion::LimitBand* band) {
-  const std::string end = fmt::format(">{:g}", std::round(10 * range.degrees()) / 10);
+inline std::string beyond_range(const motion::MotionLimit& limit, const motion::LimitBand* band) {
+  const std::string end = fmt::format(">{:g}", std::round(10 * limit.end.turned.degrees()) / 10);
   if (!band) return end;
-  const std::string p5 = fmt::format("{:.0f}", band->p5.degrees()),
-                    p95 = fmt::format("{:.0f}", band->p95.degrees());
-  return p5 == p95 ? end + "\xC2\xB0" : fmt::format("{}\xC2\xB0 ({}\xE2\x80\x93{})", end, p5, p95);
+  const std::string of_band = quoted_band(*band, limit.motion);
+  return of_band == end ? end + "\xC2\xB0" : fmt::format("{}\xC2\xB0 ({})", end, of_band);
 }
 
 /// Digits after the point of a limit: the last one is a tenth to a hundredth of its band's width, or 0.01 degrees.
@@ -25,9 +24,9 @@ inline int limit_digits(const motion::LimitBand& band) {
 }
 
 /// "131.9° (126–135)": a limit with its band, as it may be quoted.
-inline std::string quoted_limit(Angle limit, const motion::LimitBand& band) {
-  return fmt::format("{:.{}f}\xC2\xB0 ({:.0f}\xE2\x80\x93{:.0f})", limit.degrees(), limit_digits(band),
-                     band.p5.degrees(), band.p95.degrees());
+inline std::string quoted_limit(const motion::MotionLimit& limit, const motion::LimitBand& band) {
+  return fmt::format("{:.{}f}\xC2\xB0 ({})", limit.end.turned.degrees(), limit_digits(band),
+                     quoted_band(band, limit.motion));
 }
 
 }  // namespace condyle::io

@@ -73,14 +73,16 @@ bool has_hours(const ResectionAnswer& answer) {
   return answer.resection.mobile && neck_hour(answer, Vec3::UnitX()).has_value();
 }
 
-std::string target_line(const plan::ReachOutcome& outcome, const std::vector<motion::LimitBand>& bands,
-                        std::size_t i) {
-  std::string line = fmt::format("  {}: {:.1f} deg, {:.1f} without the bone; asked for {:.1f}",
-                                 outcome.target.motion.name, outcome.before.end.turned.degrees(),
-                                 outcome.after.end.turned.degrees(), outcome.target.reach.degrees());
-  if (!bands.empty())
-    line += fmt::format(", 5 to 95 % {:.1f} to {:.1f}", bands[i].p5.degrees(), bands[i].p95.degrees());
-  return line + "\n";
+std::string target_lines(const ResectionAnswer& answer, std::size_t i) {
+  const plan::ReachOutcome& outcome = answer.resection.targets[i];
+  const TargetPromise& promise = answer.promises[i];
+  const auto with_band = [&](const motion::MotionLimit& limit, const std::optional<motion::LimitBand>& band) {
+    return band ? io::quoted_limit(limit, *band) : fmt::format("{:.1f} deg", limit.end.turned.degrees());
+  };
+  return wrapped(fmt::format("  {}: {}, {} without the bone; asked for {:.1f}\n    {}\n",
+                             outcome.target.motion.name, with_band(outcome.before, promise.before),
+                             with_band(outcome.after, promise.after), outcome.target.reach.degrees(),
+                             promise.text));
 }
 
 std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
@@ -98,8 +100,7 @@ std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
 }
 
 std::string limit_value(const motion::MotionLimit& limit) {
-  if (limit.end.reason == motion::LimitReason::end_of_range)
-    return io::beyond_range(limit.end.turned, nullptr);
+  if (limit.end.reason == motion::LimitReason::end_of_range) return io::beyond_range(limit, nullptr);
   return fmt::format("{:.1f}", limit.end.turned.degrees());
 }
 
@@ -146,7 +147,28 @@ std::string curve_lines(const ResectionAnswer& answer) {
 }
 
 Json limit_json(const motion::MotionLimit& limit) {
-  return {{"limit_deg", limit.end.turned.degrees()}, {"reason", name_of(limit.end.reason)}};
+  return {{"limit_deg", degrees_turned(limit.end.turned, limit.motion)},
+          {"reason", name_of(limit.end.reason)}};
+}
+
+Json band_json(const motion::LimitBand& band, const motion::Motion& motion) {
+  return {{"p5_deg", degrees_turned(band.p5, motion)},
+          {"median_deg", degrees_turned(band.median, motion)},
+          {"p95_deg", degrees_turned(band.p95, motion)},
+          {"text", quoted_band(band, motion)}};
+}
+
+/// Null without a band.
+Json band_json(const std::vector<motion::LimitBand>& bands, std::size_t i, const motion::Motion& motion) {
+  return bands.empty() ? Json(nullptr) : band_json(bands[i], motion);
+}
+
+Json other_centre_json(const std::optional<AboutOtherCentre>& other, const motion::Motion& motion) {
+  if (!other) return nullptr;
+  return {{"centre", other->of == BodyRole::fixed ? "socket" : "head"},
+          {"before_deg", degrees_turned(other->before, motion)},
+          {"after_deg", degrees_turned(other->after, motion)},
+          {"is_decided", other->is_decided}};
 }
 
 Json blocked_json(const std::optional<plan::Blocked>& blocked) {
@@ -164,10 +186,13 @@ Json target_json(const ResectionAnswer& answer, std::size_t i) {
             {"before", limit_json(outcome.before)},
             {"after", limit_json(outcome.after)},
             {"blocked", blocked_json(outcome.blocked)}};
-  json["band"] = answer.bands.empty() ? Json(nullptr)
-                                      : Json{{"p5_deg", answer.bands[i].p5.degrees()},
-                                             {"median_deg", answer.bands[i].median.degrees()},
-                                             {"p95_deg", answer.bands[i].p95.degrees()}};
+  const TargetPromise& promise = answer.promises[i];
+  json["confidence_reached"] = io::nullable(promise.confidence_reached);
+  json["before_band"] = promise.before ? band_json(*promise.before, outcome.target.motion) : Json(nullptr);
+  json["band"] = promise.after ? band_json(*promise.after, outcome.target.motion) : Json(nullptr);
+  json["other_centre"] = other_centre_json(promise.other_centre, outcome.target.motion);
+  json["is_plan"] = promise.is_plan;
+  json["text"] = promise.text;
   return json;
 }
 
@@ -225,10 +250,9 @@ std::string resection_text(const ResectionResult& result) {
   std::string text = fmt::format("{}: bone that must go, {} side{}\n", result.joint.name,
                                  name_of(result.joint.side), whose_text(result.joint));
   text += io::parameters_text(result.joint);
-  for (std::size_t i = 0; i < answer.resection.targets.size(); ++i)
-    text += target_line(answer.resection.targets[i], answer.bands, i);
+  for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) text += target_lines(answer, i);
   for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);
-  if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:g} mm\n", answer.margin_mm);
+  if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:.3g} mm\n", answer.margin_mm);
   text += limit_lines(answer) + shape_lines(answer) + curve_lines(answer);
   for (const std::string& caveat : answer.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   return text + fmt::format("  {}\n", scope_text(result.joint));
@@ -242,8 +266,14 @@ Json resection_object(const ResectionResult& result) {
   for (std::size_t i = 0; i < answer.before.size(); ++i)
     limits.push_back({{"motion", answer.before[i].motion.name},
                       {"before", limit_json(answer.before[i])},
+                      {"before_band", band_json(answer.bands_before, i, answer.before[i].motion)},
                       {"after", limit_json(answer.after[i])},
+                      {"band", band_json(answer.bands_after, i, answer.before[i].motion)},
                       {"gain_deg", answer.gain[i].degrees()}});
+  Json alternatives = Json::array();
+  for (const ResectionAlternative& each : answer.alternatives)
+    alternatives.push_back(
+        {{"confidence", each.confidence}, {"margin_mm", each.margin_mm}, {"volume_mm3", each.volume_mm3}});
   Json hours = nullptr;
   if (has_hours(answer)) hours = depth_by_hour(answer);
   Json json{{"condyle", io::format_version},
@@ -252,6 +282,9 @@ Json resection_object(const ResectionResult& result) {
             {"mobile", result.joint.mobile.name},
             {"side", name_of(result.joint.side)},
             {"margin_mm", answer.margin_mm},
+            {"confidence", io::nullable(answer.confidence)},
+            {"displaced", answer.displaced},
+            {"alternatives", std::move(alternatives)},
             {"targets", std::move(targets)},
             {"cuts", std::move(cuts)},
             {"limits", std::move(limits)},
@@ -274,16 +307,24 @@ std::string resection_json(const ResectionResult& result) {
 std::string resection_limits_csv(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
   std::string text = io::provenance_comments(result.provenance, result.notes) +
-                     "motion,before_deg,before_reason,after_deg,after_reason,reach_deg,gain_deg\n";
+                     "motion,before_deg,before_reason,after_deg,after_reason,reach_deg,gain_deg,"
+                     "before_p5_deg,before_median_deg,before_p95_deg,after_p5_deg,after_median_deg,after_p95_"
+                     "deg\n";
   for (std::size_t i = 0; i < answer.before.size(); ++i) {
     const motion::MotionLimit &a = answer.before[i], &b = answer.after[i];
     std::string reach;
     for (const plan::ReachOutcome& outcome : answer.resection.targets)
       if (outcome.target.motion.name == a.motion.name)
         reach = fmt::format("{}", plan::asked_degrees(outcome.target.reach));
-    text += fmt::format("{},{},{},{},{},{},{}\n", io::csv_field(a.motion.name), a.end.turned.degrees(),
-                        name_of(a.end.reason), b.end.turned.degrees(), name_of(b.end.reason), reach,
+    text += fmt::format("{},{},{},{},{},{},{}", io::csv_field(a.motion.name),
+                        degrees_turned(a.end.turned, a.motion), name_of(a.end.reason),
+                        degrees_turned(b.end.turned, a.motion), name_of(b.end.reason), reach,
                         answer.gain[i].degrees());
+    for (const auto* bands : {&answer.bands_before, &answer.bands_after})
+      for (const auto quantile :
+           {&motion::LimitBand::p5, &motion::LimitBand::median, &motion::LimitBand::p95})
+        text += bands->empty() ? "," : fmt::format(",{}", degrees_turned((*bands)[i].*quantile, a.motion));
+    text += '\n';
   }
   return text;
 }

@@ -198,7 +198,9 @@ std::string band_text(const RomResult& result, TextForm form) {
     const auto add = [](TextColumn& column, Angle angle) {
       column.cells.push_back(fmt::format("{:.1f}", angle.degrees()));
     };
-    add(median, band.median), add(low, band.p5), add(high, band.p95);
+    for (const auto& [column, angle] : {std::pair(&median, band.median), {&low, band.p5}, {&high, band.p95}})
+      column->cells.push_back((angle < result.answer.limits[i].motion.range ? "" : ">") +
+                              fmt::format("{:.1f}", angle.degrees()));
     add(centre, band.width_from.centre), add(axes, band.width_from.axes),
         add(surface, band.width_from.surface);
     add(parameters, band.width_from.parameters);
@@ -346,8 +348,8 @@ std::string limit_words(const RangeAnswer& answer, std::size_t i) {
   const motion::LimitBand* band = answer.bands.empty() ? nullptr : &answer.bands[i];
   // Where what a translation follows ends, the motion is known to there, not free beyond.
   if (limit.end.reason == motion::LimitReason::end_of_range && !limit.translation_ends)
-    return io::beyond_range(limit.end.turned, band);
-  return band ? io::quoted_limit(limit.end.turned, *band) : fmt::format("{:.2f}", limit.end.turned.degrees());
+    return io::beyond_range(limit, band);
+  return band ? io::quoted_limit(limit, *band) : fmt::format("{:.2f}", limit.end.turned.degrees());
 }
 
 std::string rom_text(const RomResult& result, TextForm form) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "answer/limit_facts.hpp"
 #include "condyle/error.hpp"
 #include "io/file/csv_fields.hpp"
 
@@ -45,7 +46,7 @@ Cells fields_of(const ResectionAnswer& answer) {
                   number(removed.deepest_mm)};
   for (const plan::ReachOutcome& outcome : answer.resection.targets) {
     fields.push_back(number(plan::asked_degrees(outcome.planned)));
-    fields.push_back(number(outcome.after.end.turned.degrees()));
+    fields.push_back(number(degrees_turned(outcome.after.end.turned, outcome.target.motion)));
     fields.emplace_back(outcome.blocked ? name_of(outcome.blocked->by) : "");
   }
   fields.push_back(codes_of(answer.notes));
@@ -94,7 +95,8 @@ std::vector<ResultColumn> resected_limit_columns() {
 std::optional<ResectionFields> resection_fields(const LoadedJoint& loaded, const StudyResection& resection,
                                                 const RangeRequest& range, std::stop_token stop) {
   const Case joint = loaded;
-  ResectionRequest request{.resection = resection.cut, .motions = range.motions, .curve_points = 0};
+  ResectionRequest request{
+      .resection = resection.cut, .motions = range.motions, .bands = {}, .curve_points = 0};
   request.resection.targets = reach_targets(joint.motions(), resection.targets);
   request.resection.range = range.range;
   ResectionFields fields;
@@ -104,7 +106,7 @@ std::optional<ResectionFields> resection_fields(const LoadedJoint& loaded, const
     fields.of_hip = fields_of(*answer);
     for (const motion::MotionLimit& limit : answer->after)
       fields.of_limits.push_back(
-          {number(limit.end.turned.degrees()), std::string(name_of(limit.end.reason))});
+          {number(degrees_turned(limit.end.turned, limit.motion)), std::string(name_of(limit.end.reason))});
   } catch (const MeshError& error) {
     fields.of_hip = no_plan(resection, error.what());
     fields.of_limits.assign(range.motions.size(), Cells(resected_limit_columns().size()));

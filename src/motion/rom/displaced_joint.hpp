@@ -30,4 +30,11 @@ class DisplacedJoint {
   std::unique_ptr<Parts> parts_;
 };
 
+/// limit_bands() without `width_from`: one search per sample. Empty if it was stopped.
+[[nodiscard]] std::optional<std::vector<LimitBand>> bands_without_widths(const Joint& joint,
+                                                                         std::span<const Motion> motions,
+                                                                         const RangeOptions& range,
+                                                                         const BandOptions& options,
+                                                                         const Control& control);
+
 }  // namespace condyle::motion

@@ -53,18 +53,16 @@ void check(const BandOptions& options, std::span<const Motion> motions, JointKin
   for (const Motion& motion : motions) check_motion(motion, kind);
 }
 
-}  // namespace
-
-std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
-                                                  const RangeOptions& range, const BandOptions& options,
-                                                  const Control& control) {
+/// The bands of all these sources together, the first, with the widths of those that are among them by themselves.
+std::optional<std::vector<LimitBand>> bands_of(const Joint& joint, std::span<const Motion> motions,
+                                               const RangeOptions& range, const BandOptions& options,
+                                               const std::vector<Source>& sources, const Control& control) {
   check(options, motions, joint.kind);
   const DisplacedJoint displaced(joint, motions, range, options.sigma);
   const std::vector<Displacement> samples =
       motion::displacements(options, kinematics::uncertain_parameters(joint));
 
   // Outcomes by source, sample and motion.
-  const std::vector<Source> sources = sources_of(options.sigma, joint);
   const std::size_t count = samples.size(), width = motions.size(), total = sources.size() * count;
   std::vector<DisplacedLimit> outcomes(total * width);
   std::size_t done = 0;
@@ -114,6 +112,22 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
     for (std::size_t i = 0; i < count; ++i) bands.back().turned.push_back(turned(0, i));
   }
   return bands;
+}
+
+}  // namespace
+
+std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
+                                                  const RangeOptions& range, const BandOptions& options,
+                                                  const Control& control) {
+  return bands_of(joint, motions, range, options, sources_of(options.sigma, joint), control);
+}
+
+std::optional<std::vector<LimitBand>> bands_without_widths(const Joint& joint,
+                                                           std::span<const Motion> motions,
+                                                           const RangeOptions& range,
+                                                           const BandOptions& options,
+                                                           const Control& control) {
+  return bands_of(joint, motions, range, options, {Source::all}, control);
 }
 
 std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,

@@ -116,6 +116,9 @@ def test_a_band_that_the_range_cuts_off_is_open_and_quoted_as_the_command_does()
     assert drawn(ended(119.99, 0.06, "contact")) == (["110.0° (88–120)"], [119.99])
     assert drawn(ended(119.0, 0.05), ended(120.0, 0.05), ended(118.0, 0.5)) == (
         [">120° (88–119)", ">120° (88–120)", ">120° (88–118)"], [])
+    said = ended(120.0, 0.88)
+    said["band"]["text"] = "88–>120"
+    assert drawn(said) == ([">120° (88–>120)"], [120.0])
     beyond = {**BAND, "p5_deg": 119.9, "median_deg": 120.0, "p95_deg": 120.0, "share_without_contact": 1.0}
     ax = figures.limits({"motions": [motion("faber", 120.0, "end_of_range", band=beyond, range_deg=120.0)]})
     assert texts(ax, "value") == [">120°"] and not ax.containers[1:], "as a whole beyond: no whisker"

@@ -88,7 +88,7 @@ function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLEl
     motions.map((motion) => {
       const band = shownBand(motion);
       return [
-        named(motionName(motion.name)), limitAlone(motion), band ? words.bandEnds(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "–",
+        named(motionName(motion.name)), limitAlone(motion), band ? words.bandEnds(band.text) : "–",
         endOf(motion, joint),
         degrees(motion.bearing_contact_deg), motion.living?.text ?? "–",
         motion.reason !== "contact" || motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,

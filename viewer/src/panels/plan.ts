@@ -19,7 +19,7 @@ export function planInShort({ targets, cuts, margin_mm }: StoredPlan, names: Rec
     table(["", words.before, words.target, words.after], targets.map((target) => [
       named(motionName(target.motion)), endText(target.before), `${Number(target.reach_deg.toFixed(2))}°`, endText(target.after),
     ]), words.targets),
-    ...(blocked.length ? [lines(blocked)] : []),
+    lines([...targets.map(({ motion, text }) => words.promised(named(motionName(motion)), text)), ...blocked]),
     cuts.length
       ? lines(cuts.map((cut) => words.cut({ ...cut, name: names[cut.body], hour: cut.deepest_hour === null ? null : clockTime(cut.deepest_hour) })))
       : html("p", {}, words.nothingGoes),
