@@ -153,6 +153,7 @@ list(JOIN kernels "|" kernels)
 set(exceptions
     cli/picture.cpp                      # marks of measures: nothing of them is said
     python/bindings/report.cpp           # likewise, of Joint.picture()
+    python/bindings/joint.hpp            # keeps the tables that limits_of_poses() made between poses that a caller chooses
     python/bindings/motion_contact.cpp   # one step of a loop that a caller writes: answer_load() looks at 16 places of each triangle more
     python/bindings/depth_range.cpp      # keeps its tables between poses that a caller chooses
     python/bindings/recorded_motion.cpp  # between samples only, whose times need no frames

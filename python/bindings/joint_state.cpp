@@ -73,10 +73,7 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else if constexpr (is_one_of<Struct, Joint>) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
-    each(a, b, c, d, e, f, g, h, i, j, k, l, m);
-  } else if constexpr (is_one_of<Struct, io::JointFile>) {
+  } else if constexpr (is_one_of<Struct, Joint, io::JointFile>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   } else if constexpr (is_one_of<Struct, JointDescription, plan::ReverseShoulder>) {

@@ -55,7 +55,7 @@ py::object dict_of_cut(const std::optional<plan::CutBone>& cut) {
 }
 
 py::tuple tuple_of_target(const JointHandle& handle, const plan::Resection& without,
-                          const plan::ReachOutcome& outcome, const TargetPromise& promise) {
+                          const plan::ReachOutcome& outcome, const ResectionAnswer::TargetPromise& promise) {
   py::object blocked = py::none();
   if (outcome.blocked)
     blocked = py::make_tuple(std::string(name_of(outcome.blocked->by)),
@@ -99,9 +99,9 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   for (std::size_t i = 0; i < answer.promises.size(); ++i)
     targets.append(
         tuple_of_target(handle, answer.resection, answer.resection.targets[i], answer.promises[i]));
-  for (const ResectionAlternative& each : answer.alternatives)
+  for (const ResectionAnswer::ResectionAlternative& each : answer.alternatives)
     alternatives.append(py::make_tuple(each.confidence, each.margin_mm, each.volume_mm3));
-  for (const ResectionCurvePoint& point : answer.curve)
+  for (const ResectionAnswer::ResectionCurvePoint& point : answer.curve)
     curve.append(py::make_tuple(point.target, point.reached.degrees(), point.volume_mm3, point.deepest_mm));
   py::dict dict;
   dict["joint"] = handle_of(handle, answer.resection.joint);

@@ -81,12 +81,12 @@ std::shared_ptr<const RangeOfMotion> limits_of_poses(const Joint& joint) {
 }
 
 PoseStanding pose_standing(const RangeOfMotion& limits, const JointAngles& at, const Vec3& translation_mm,
-                           bool in_contact, FindNearest find) {
+                           bool in_contact, PoseStanding::FindNearest find) {
   Pose X_FM = pose_at(limits.coordinates(), at);
   X_FM.translation() = translation_mm;
   PoseStanding standing{.clearance_mm = limits.clearance_mm(X_FM)};
   const bool knows_bearing = limits.bearing_rule() == motion::BearingRule::leave_out;
-  if (find == FindNearest::at_limits && (knows_bearing || !in_contact) &&
+  if (find == PoseStanding::FindNearest::at_limits && (knows_bearing || !in_contact) &&
       !limits.may_end_within(at_limit_within, translation_mm, standing.clearance_mm)) {
     standing.state = in_contact ? PoseState::bearing : PoseState::free;
     return standing;

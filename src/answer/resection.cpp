@@ -404,7 +404,7 @@ bool judge(const Joint& before, const ResectionRequest& request, const motion::B
   if (!bands || !after) return false;
   answer.displaced = displaced.samples;
   for (std::size_t i = 0; i < cut.targets.size(); ++i) {
-    TargetPromise& promise = answer.promises[i];
+    ResectionAnswer::TargetPromise& promise = answer.promises[i];
     promise.before = (*bands)[request.motions.size() + i];
     promise.after = (*after)[request.motions.size() + i];
     const auto& turned = promise.after->turned;
@@ -455,7 +455,7 @@ std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
         formatted("%s in %.0f %% of %zu displaced %s", said.starts_with("ends") ? ", which it reaches" : "",
                   100 * *reached, answer.displaced, answer.resection.joint.is_hip() ? "hips" : "joints") +
         formatted(", %.4g mm3", answer.resection.volume_mm3());
-  for (const ResectionAlternative& each : answer.alternatives)
+  for (const ResectionAnswer::ResectionAlternative& each : answer.alternatives)
     if (each.confidence != answer.confidence)
       said += formatted("; in %.4g %%: %.4g mm3", 100 * each.confidence, each.volume_mm3);
   if (!other) return said;
@@ -470,7 +470,7 @@ std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
 
 void note_promises(ResectionAnswer& answer) {
   for (std::size_t i = 0; i < answer.promises.size(); ++i) {
-    TargetPromise& promise = answer.promises[i];
+    ResectionAnswer::TargetPromise& promise = answer.promises[i];
     promise.text = promise_text(answer, i);
     if (promise.other_centre && !(promise.is_plan && promise.other_centre->is_decided))
       answer.notes.push_back({promise.is_plan ? ResectionNoteCode::not_decided : ResectionNoteCode::no_plan,

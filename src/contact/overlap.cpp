@@ -152,6 +152,11 @@ class Columns {
     const auto is_again = [](const std::array<double, 2>& w) {
       return w[1] > 0 ? std::max(w[0] - 1, 0.0) : 0.0;
     };
+    // Edges that coincide leave slivers as narrow as rounding, which every further edge would cut again; so little is in them that a million
+    // are below a rounding of the whole.
+    const auto is_sliver = [&](const Polygon& part) {
+      return part.count < 3 || std::abs(moments_of(part).area) < 16 * unit_rounding * size_ * size_;
+    };
     mesh::CompensatedSum sum;
     for (std::size_t own = 0; own < 2; ++own) {
       const std::vector<Prism>& prisms = grids[own]->prisms();
@@ -170,7 +175,7 @@ class Columns {
                                    unit_rounding * size_ * (prism.secant + another.secant);
               divided.clear();
               for (const Piece& piece : pieces) {
-                if (another.clipped(piece.part).count < 3) {
+                if (is_sliver(another.clipped(piece.part))) {
                   divided.push_back(piece);
                   continue;
                 }
@@ -180,7 +185,7 @@ class Columns {
                   return another.height_at(within.corners[k]) - within.corners[k].z + nudge;
                 };
                 const auto add = [&](const Polygon& part, double sign) {
-                  if (part.count < 3) return;
+                  if (is_sliver(part)) return;
                   divided.push_back({part, piece.above});
                   divided.back().above[of] += sign;
                 };

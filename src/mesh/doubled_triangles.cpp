@@ -91,7 +91,7 @@ DoubledTriangles doubled_triangles(const TriMesh& mesh) {
 
 bool is_two_sided(const TriMesh& mesh) {
   const BoundingBox box = bounds_of_surface(mesh);
-  return std::abs(enclosed_volume(mesh)) <= 1e-12 * std::pow(box.diagonal(), 3) &&
+  return std::abs(enclosed_volume(mesh)) <= 1e-12 * box.diagonal() * box.diagonal() * box.diagonal() &&
          doubled_triangles(mesh).is_two_sided();
 }
 

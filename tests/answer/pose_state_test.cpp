@@ -62,7 +62,9 @@ TEST(PoseState, OfAHipIsWhatItsLimitsSay) {
       const PoseStanding there =
           standing_at(*hip, *limits,
                       motion::turned_by(at, vary, (end.turned + Angle::degrees(past_deg)) * sign_of(sense)));
-      if (past_deg > -0.05) EXPECT_EQ(there.state, state) << past_deg;
+      if (past_deg > -0.05) {
+        EXPECT_EQ(there.state, state) << past_deg;
+      }
       EXPECT_EQ(there.clearance_mm == 0, past_deg > 0) << past_deg;
       EXPECT_EQ(there.to_limit_deg() == 0, past_deg > 0) << past_deg;
     }
@@ -93,7 +95,7 @@ TEST(PoseState, WithoutABearingSurfaceIsContactAndSaysWhy) {
 TEST(PoseState, ComesWithDepthAndMotion) {
   const auto limits = limits_of_poses(arm);
   const contact::JointContact bodies(arm);
-  MotionRequest request{.limits = limits.get(), .nearest_limits = FindNearest::always};
+  MotionRequest request{.limits = limits.get(), .nearest_limits = PoseStanding::FindNearest::always};
   for (const double f : {0.0, 10.0, 25.0}) {
     const JointAngles at = degrees(f, 0, 0);
     const Pose X_FM = pose_at(arm.coordinates(), at);
@@ -103,8 +105,9 @@ TEST(PoseState, ComesWithDepthAndMotion) {
     ASSERT_TRUE(depth.standing);
     EXPECT_EQ(depth.standing->state, f == 25 ? PoseState::contact : PoseState::free);
     EXPECT_EQ(depth.deepest_place.has_value(), f == 25);
-    if (f == 25)
+    if (f == 25) {
       EXPECT_EQ(depth.deepest_place->depth_mm, answer_touch(bodies, {.X_FM = X_FM}).deepest->depth_mm);
+    }
   }
   request.X_FM.push_back(std::nullopt);
   const MotionAnswer motion = answer_motion(bodies, nullptr, request);

@@ -53,6 +53,9 @@ inline constexpr Angle at_limit_within = Angle::degrees(0.05);
 
 /// How a pose stands to the ends of motions.
 struct PoseStanding {
+  /// Whether the nearest end is looked for at all, or only where the pose may be at one: else `nearest` is empty.
+  enum class FindNearest : std::uint8_t { always, at_limits };
+
   PoseState state = PoseState::free;
   /// The end that is nearest: how far one angle alone turns to it. Empty if the pose is beyond one, and if none is within half a turn.
   std::optional<motion::NearestEnd> nearest = {};
@@ -63,9 +66,6 @@ struct PoseStanding {
   [[nodiscard]] double to_limit_deg() const noexcept;
 };
 
-/// Whether the nearest end is looked for at all, or only where the pose may be at one: else `nearest` is empty.
-enum class FindNearest : std::uint8_t { always, at_limits };
-
 /// The limits by which poses of a joint are judged, whatever is in contact in the reference pose; null if no contact ends a motion.
 [[nodiscard]] std::shared_ptr<const motion::RangeOfMotion> limits_of_poses(const Joint& joint);
 
@@ -73,7 +73,7 @@ enum class FindNearest : std::uint8_t { always, at_limits };
 /// hundred microseconds, and as RangeOfMotion::nearest_end() where that is asked.
 [[nodiscard]] PoseStanding pose_standing(const motion::RangeOfMotion& limits, const JointAngles& at,
                                          const Vec3& translation_mm, bool in_contact,
-                                         FindNearest find = FindNearest::always);
+                                         PoseStanding::FindNearest find = PoseStanding::FindNearest::always);
 
 /// A band of displaced joints, and how they are displaced. What is left open is as the case has it.
 struct BandRequest {

@@ -54,7 +54,7 @@ struct MotionRequest {
   std::vector<std::optional<RelativeMotion>> motions = {};
   const motion::RangeOfMotion* limits = nullptr;  ///< limits_of_poses(), which judge frames; null: none does
   /// Always: how far each frame is from the nearest limit, some 10 ms a frame.
-  FindNearest nearest_limits = FindNearest::at_limits;
+  PoseStanding::FindNearest nearest_limits = PoseStanding::FindNearest::at_limits;
 
   [[nodiscard]] bool has_load() const noexcept { return load || !loads.empty(); }
 };

@@ -32,13 +32,6 @@ struct ResectionRequest {
   std::size_t curve_points = 10;
 };
 
-/// The cost of a target if it were the only one, at nearer angles.
-struct ResectionCurvePoint {
-  std::size_t target;
-  Angle reached;
-  double volume_mm3, deepest_mm;
-};
-
 enum class ResectionNoteCode : std::uint8_t {
   nothing_to_do,   ///< The joint reaches all targets uncut.
   target_blocked,  ///< Kept bone stops a motion short of its target.
@@ -67,30 +60,34 @@ struct ResectionNote {
 /// Share of the neck's width that may go without a note.
 inline constexpr double neck_width_share = 0.3;
 
-/// What a plan for a share of displaced joints costs.
-struct ResectionAlternative {
-  double confidence, margin_mm, volume_mm3;
-};
-
-/// A motion before and after a cut if the joint turned about its other centre.
-struct AboutOtherCentre {
-  BodyRole of;  ///< the body whose sphere has that centre: the fixed one's is the socket
-  Angle before, after;
-  bool is_decided;  ///< the target is reached about both centres or about neither
-};
-
-/// What a cut promises of a target.
-struct TargetPromise {
-  std::optional<double> confidence_reached =
-      {};  ///< share of the displaced joints in which this cut reaches it
-  std::optional<motion::LimitBand> before = {}, after = {};
-  /// If head and socket are known with their centres over centres_apart_mm apart.
-  std::optional<AboutOtherCentre> other_centre = {};
-  bool is_plan = true;    ///< false: about the other centre it ends before where it ends now
-  std::string text = {};  ///< how far it goes, in how many joints, and about which centre: one line
-};
-
 struct ResectionAnswer {
+  /// The cost of a target if it were the only one, at nearer angles.
+  struct ResectionCurvePoint {
+    std::size_t target;
+    Angle reached;
+    double volume_mm3, deepest_mm;
+  };
+  /// What a plan for a share of displaced joints costs.
+  struct ResectionAlternative {
+    double confidence, margin_mm, volume_mm3;
+  };
+  /// What a cut promises of a target.
+  struct TargetPromise {
+    /// A motion before and after a cut if the joint turned about its other centre.
+    struct AboutOtherCentre {
+      BodyRole of;  ///< the body whose sphere has that centre: the fixed one's is the socket
+      Angle before, after;
+      bool is_decided;  ///< the target is reached about both centres or about neither
+    };
+    std::optional<double> confidence_reached =
+        {};  ///< share of the displaced joints in which this cut reaches it
+    std::optional<motion::LimitBand> before = {}, after = {};
+    /// If head and socket are known with their centres over centres_apart_mm apart.
+    std::optional<AboutOtherCentre> other_centre = {};
+    bool is_plan = true;    ///< false: about the other centre it ends before where it ends now
+    std::string text = {};  ///< how far it goes, in how many joints, and about which centre: one line
+  };
+
   plan::Resection resection;
   double margin_mm =
       0;  ///< as planned: larger than requested where a share of displaced joints is to reach the targets

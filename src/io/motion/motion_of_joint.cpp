@@ -30,7 +30,7 @@ std::optional<MotionAnswer> MotionOfJoint::answer(const Control& control) const 
   const auto limits = limits_of_poses(joint_);
   MotionRequest request = request_;
   request.limits = limits.get();
-  if (to_limits_) request.nearest_limits = FindNearest::always;
+  if (to_limits_) request.nearest_limits = PoseStanding::FindNearest::always;
   auto answer = answer_motion(bodies, layers(), request, control);
   if (!answer) return std::nullopt;
   std::vector<motion::ContactNote> notes = notes_;

@@ -75,7 +75,7 @@ bool has_hours(const ResectionAnswer& answer) {
 
 std::string target_lines(const ResectionAnswer& answer, std::size_t i) {
   const plan::ReachOutcome& outcome = answer.resection.targets[i];
-  const TargetPromise& promise = answer.promises[i];
+  const ResectionAnswer::TargetPromise& promise = answer.promises[i];
   const auto with_band = [&](const motion::MotionLimit& limit, const std::optional<motion::LimitBand>& band) {
     return band ? io::quoted_limit(limit, *band) : fmt::format("{:.1f} deg", limit.end.turned.degrees());
   };
@@ -139,7 +139,7 @@ std::string shape_lines(const ResectionAnswer& answer) {
 std::string curve_lines(const ResectionAnswer& answer) {
   if (answer.curve.empty()) return {};
   std::string text = "  what each degree costs, each target by itself:\n";
-  for (const ResectionCurvePoint& point : answer.curve)
+  for (const ResectionAnswer::ResectionCurvePoint& point : answer.curve)
     text += fmt::format("    {} to {:.1f} deg: {:.1f} mm3, {:.2f} mm deep\n",
                         answer.resection.targets[point.target].target.motion.name, point.reached.degrees(),
                         point.volume_mm3, point.deepest_mm);
@@ -163,7 +163,8 @@ Json band_json(const std::vector<motion::LimitBand>& bands, std::size_t i, const
   return bands.empty() ? Json(nullptr) : band_json(bands[i], motion);
 }
 
-Json other_centre_json(const std::optional<AboutOtherCentre>& other, const motion::Motion& motion) {
+Json other_centre_json(const std::optional<ResectionAnswer::TargetPromise::AboutOtherCentre>& other,
+                       const motion::Motion& motion) {
   if (!other) return nullptr;
   return {{"centre", other->of == BodyRole::fixed ? "socket" : "head"},
           {"before_deg", degrees_turned(other->before, motion)},
@@ -186,7 +187,7 @@ Json target_json(const ResectionAnswer& answer, std::size_t i) {
             {"before", limit_json(outcome.before)},
             {"after", limit_json(outcome.after)},
             {"blocked", blocked_json(outcome.blocked)}};
-  const TargetPromise& promise = answer.promises[i];
+  const ResectionAnswer::TargetPromise& promise = answer.promises[i];
   json["confidence_reached"] = io::nullable(promise.confidence_reached);
   json["before_band"] = promise.before ? band_json(*promise.before, outcome.target.motion) : Json(nullptr);
   json["band"] = promise.after ? band_json(*promise.after, outcome.target.motion) : Json(nullptr);
@@ -224,7 +225,7 @@ Json shape_json(const ResectionAnswer& answer) {
 
 Json curve_json(const ResectionAnswer& answer) {
   Json list = Json::array();
-  for (const ResectionCurvePoint& point : answer.curve)
+  for (const ResectionAnswer::ResectionCurvePoint& point : answer.curve)
     list.push_back({{"motion", answer.resection.targets[point.target].target.motion.name},
                     {"reached_deg", point.reached.degrees()},
                     {"volume_mm3", point.volume_mm3},
@@ -271,7 +272,7 @@ Json resection_object(const ResectionResult& result) {
                       {"band", band_json(answer.bands_after, i, answer.before[i].motion)},
                       {"gain_deg", answer.gain[i].degrees()}});
   Json alternatives = Json::array();
-  for (const ResectionAlternative& each : answer.alternatives)
+  for (const ResectionAnswer::ResectionAlternative& each : answer.alternatives)
     alternatives.push_back(
         {{"confidence", each.confidence}, {"margin_mm", each.margin_mm}, {"volume_mm3", each.volume_mm3}});
   Json hours = nullptr;
@@ -332,7 +333,7 @@ std::string resection_limits_csv(const ResectionResult& result) {
 std::string resection_curve_csv(const ResectionResult& result) {
   std::string text =
       io::provenance_comments(result.provenance) + "motion,reached_deg,volume_mm3,deepest_mm\n";
-  for (const ResectionCurvePoint& point : result.answer.curve)
+  for (const ResectionAnswer::ResectionCurvePoint& point : result.answer.curve)
     text += fmt::format("{},{},{},{}\n",
                         io::csv_field(result.answer.resection.targets[point.target].target.motion.name),
                         point.reached.degrees(), point.volume_mm3, point.deepest_mm);

@@ -40,7 +40,8 @@ std::vector<double> limits_of(const Joint& joint) {
 }
 
 PlacedJoint placed(Side side, Body fixed, Body mobile) {
-  JointDescription description{.side = side};
+  JointDescription description;
+  description.side = side;
   description.frame.axes = lps_axes;
   description.frame.centre = CentreFit{};
   return make_joint(description, std::move(fixed), std::move(mobile));

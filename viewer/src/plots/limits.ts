@@ -27,7 +27,7 @@ export function limitBar(motion: MotionAnswer, most: number): SVGSVGElement {
 }
 
 const bandColumns = (of: string) => [`${of}p5_deg`, `${of}median_deg`, `${of}p95_deg`];
-const bandCells = (band: Band | null | undefined) => [band?.p5_deg ?? null, band?.median_deg ?? null, band?.p95_deg ?? null];
+const bandCells = (band: Omit<Band, "text"> | null | undefined) => [band?.p5_deg ?? null, band?.median_deg ?? null, band?.p95_deg ?? null];
 
 /// Every limit with all of its digits, beside that of the joint before, if there is one.
 export function limitRows(motions: readonly MotionAnswer[], before: StoredBefore | null = null): (string | number | null)[][] {
