@@ -145,7 +145,7 @@ void add_inspect(CLI::App& app) {
   group_help(*command, {{"Meshes", {"--repair", "--polygons", "--out"}},
                         {"Label maps", label_file_names()},
                         {"Models", {"--geometry"}},
-                        {"Output", {"--json"}}});
+                        {"Output", {"--json", "--help"}}});
   command->callback([options, command] { inspect_command(*options, *command); });
 }
 

@@ -98,7 +98,7 @@ void add_resect(CLI::App& app) {
   add_strict(*command, options->strictness);
   group_help(*command,
              {{"Most used", {"--reach", "--out", "--confidence", "--from", "--json"}},
-              {"Question", {"--set"}},
+              {"Question", {"--set", "--band"}},
               {"Bone that stays", {"--deepest", "--within", "--protect", "--protect-fixed", "--margin"}},
               {"Contact", {"--bearing", "--accept-reference-contact"}},
               uncertainty_group(),

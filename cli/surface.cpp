@@ -78,7 +78,8 @@ void add_surface(CLI::App& app) {
   add_label_file(*command, options->labels);
   std::vector<std::string> of_bone{"--label"};
   for (const std::string& name : label_surface_names()) of_bone.push_back(name);
-  group_help(*command, {{"Bone", of_bone}, {"Image", label_file_names()}, {"Output", {"--out", "--json"}}});
+  group_help(*command,
+             {{"Bone", of_bone}, {"Image", label_file_names()}, {"Output", {"--out", "--json", "--help"}}});
   command->callback([options, command] { surface_command(*options, *command); });
 }
 

@@ -252,10 +252,10 @@ class LimitRecord(Record):
     zone : ZoneRecord or None
         only with `--past`, below; null for motions that did not end by contact
     band : BandRecord or None
-        `p5_deg`, `median_deg`, `p95_deg` of the limit over the joints of the band; `width_from`: what the width, 5 to 95 %, would
-        be if only the centre (`centre_deg`), the axes (`axes_deg`), the surfaces (`surface_deg`) or parameters of parts
-        (`parameters_deg`, if they have standard deviations) were uncertain; `share_without_contact`, `share_in_contact_at_start`
-        of the joints, 0 to 1. Null without `--band`
+        `p5_deg`, `median_deg`, `p95_deg` of the limit over the joints of the band; `text`, such as `"88–>120"` where 5 % of
+        them end with the range; `width_from`: what the width, 5 to 95 %, would be if only the centre (`centre_deg`), the axes
+        (`axes_deg`), the surfaces (`surface_deg`) or parameters of parts (`parameters_deg`, if they have standard deviations)
+        were uncertain; `share_without_contact`, `share_in_contact_at_start` of the joints, 0 to 1. Null without `--band`
     """
 
     name: str

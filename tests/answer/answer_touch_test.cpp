@@ -327,13 +327,19 @@ TEST(Touch, ScalesWithTheMeshes) {
   EXPECT_NEAR(answer.free[4].distance_mm, 1.25, 1e-8);
 }
 
+/// The notes without those of a size that no bone has: these boxes are of few millimetres.
+std::vector<JointNote> notes_of(TouchAnswer answer) {
+  std::erase_if(answer.notes,
+                [](const JointNote& note) { return note.code == JointNoteCode::unlikely_size; });
+  return answer.notes;
+}
+
 TEST(Touch, OfSurfacesWithoutAnInsideAnswersForTheSurfaces) {
   const TriMesh solid = box({-2, -2, -2}, {2, 2, 2}), sheet = plane(1, 2);
   const TouchAnswer open = touch(solid, posed(at({0, 0, 1.5}), sheet));
   EXPECT_TRUE(
       open.in_contact);  // the sheet reaches through the box's top? it lies within: pieces of it are inside
-  ASSERT_EQ(open.notes.size(), 1u);
-  EXPECT_EQ(open.notes[0].code, JointNoteCode::open_mesh);
+  EXPECT_EQ(notes_of(open).at(0).code, JointNoteCode::open_mesh);
   ASSERT_TRUE(open.deepest);  // of the sheet, whose lower edge is deepest in the solid, 1.5 below its top
   EXPECT_EQ(open.deepest->of, BodyRole::mobile);
   EXPECT_NEAR(open.deepest->depth_mm, 1.5, 1e-10);
@@ -342,7 +348,7 @@ TEST(Touch, OfSurfacesWithoutAnInsideAnswersForTheSurfaces) {
 
   const TouchAnswer inverted = touch(flipped(solid), box({1, -1, -1}, {4, 1, 1}));
   EXPECT_TRUE(inverted.in_contact);
-  EXPECT_EQ(inverted.notes[0].code, JointNoteCode::inverted_mesh);
+  EXPECT_EQ(notes_of(inverted).at(0).code, JointNoteCode::inverted_mesh);
   EXPECT_FALSE(inverted.overlap->volume_mm3);
   ASSERT_TRUE(inverted.deepest);  // of the inverted body's surface in the other
   EXPECT_NEAR(inverted.deepest->depth_mm, 1, 1e-10);
@@ -351,10 +357,11 @@ TEST(Touch, OfSurfacesWithoutAnInsideAnswersForTheSurfaces) {
   const TouchAnswer partly =
       touch(joined(solid, flipped(box({5, -1, -1}, {8, 1, 1}))), box({6, 0, 0}, {7, 0.5, 0.5}));
   EXPECT_FALSE(partly.in_contact);
-  ASSERT_EQ(partly.notes.size(), 1u);
-  EXPECT_EQ(partly.notes[0].code, JointNoteCode::inverted_mesh);
-  EXPECT_NE(partly.notes[0].text.find("that of triangle 12"), std::string::npos) << partly.notes[0].text;
-  EXPECT_TRUE(touch(joined(solid, flipped(box({-1, -1, -1}, {1, 1, 1}))), solid).notes.empty());
+  const std::vector<JointNote> of_piece = notes_of(partly);
+  ASSERT_EQ(of_piece.size(), 1u);
+  EXPECT_EQ(of_piece[0].code, JointNoteCode::inverted_mesh);
+  EXPECT_NE(of_piece[0].text.find("that of triangle 12"), std::string::npos) << of_piece[0].text;
+  EXPECT_TRUE(notes_of(touch(joined(solid, flipped(box({-1, -1, -1}, {1, 1, 1}))), solid)).empty());
 }
 
 TEST(Touch, HasTheNotesOfAJoint) {

@@ -58,7 +58,7 @@ TEST_F(Shoulder, IsStoppedByItsAcromion) {
   EXPECT_EQ(json["bearing"]["rule"], "leave_out");
   EXPECT_NEAR(json["bearing"]["beside_gap_mm"].get<double>(), 10, 1e-9);
   EXPECT_FALSE(has_code(json, "sliding_surfaces"));
-  const Ran text = run("rom joint.toml");
+  const Ran text = run("rom joint.toml --verbose");
   EXPECT_NE(text.out.find("impingement, superior"), std::string::npos) << text.out;
   ASSERT_EQ(run("rom joint.toml --motion abduction --out out").exit_code, 0);
   EXPECT_NE(io::read_whole_file(folder / "out/limits.csv").find(",superior,"), std::string::npos);
@@ -70,7 +70,7 @@ TEST_F(Shoulder, SaysWhatLiesBesideItsSocketWhereThatLimitsTheMargin) {
   ParametricShoulder low;
   low.acromion_y = 25.2;
   write(low);
-  const Ran ran = run("rom joint.toml --motion abduction");
+  const Ran ran = run("rom joint.toml --motion abduction --verbose");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_NE(ran.out.find("scapula 1.20 mm beside its socket"), std::string::npos) << ran.out;
   EXPECT_NE(ran.err.find("note: narrow_bearing_margin: scapula leaves the head only 1.20 mm"),
@@ -95,8 +95,9 @@ TEST_F(Shoulder, CalledAnElbowHasSurfacesThatSlideByNature) {
   const Json json = answer("rom joint.toml --motion varus");
   EXPECT_EQ(json["bearing"]["rule"], "count");
   EXPECT_TRUE(has_code(json, "sliding_surfaces"));
-  EXPECT_NE(run("rom joint.toml").err.find("note: sliding_surfaces: the surfaces of an elbow slide"),
-            std::string::npos);
+  EXPECT_NE(
+      run("rom joint.toml --verbose").err.find("note: sliding_surfaces: the surfaces of an elbow slide"),
+      std::string::npos);
 }
 
 }  // namespace

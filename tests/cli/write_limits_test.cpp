@@ -300,7 +300,7 @@ TEST_F(WrittenLimits, AreRefusedInOneLine) {
       {"hip.toml --write-limits hip.csv --limits living", 2, "coupled limits are those of bone"},
       {"hip.toml --write-limits model.osim --model model.osim", 3, "model.osim: "},
       {"hip.toml --write-limits hip.osim --model none.osim", 3, "none.osim: no such file"},
-      {"hip.toml --write-limits hip.osim --model hip.toml", 3, "hip.toml: "},
+      {"hip.toml --write-limits hip.osim --model hip.toml", 2, "hip.toml: is no model of OpenSim"},
       {"hip.toml --limits living", 2, "--write-limits"},
       {"bare.toml --write-limits hip.osim", 2, "no model was read into this joint"},
       {"posed.toml --write-limits hip.osim", 2, "the model poses this joint by its functions"},

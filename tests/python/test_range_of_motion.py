@@ -192,7 +192,8 @@ def test_bands_are_a_table(coarse_bones):
     bands = rom.bands(samples=20)
     table = bands.to_dataframe()
     assert table.motion.tolist() == ["flexion", "faber"] and table.p95_deg.tolist() == [band.p95_deg for band in bands]
-    assert f"<td>flexion</td><td>{bands[0].p5_deg:.1f}, {bands[0].median_deg:.1f}, {bands[0].p95_deg:.1f}</td>" in bands._repr_html_()
+    assert bands[0].text == f"{bands[0].p5_deg:.0f}–{bands[0].p95_deg:.0f}" and bands[1].text == f"{bands[1].p5_deg:.0f}–>120"
+    assert f"<td>flexion</td><td>{bands[0].text}, median {bands[0].median_deg:.1f}</td>" in bands._repr_html_()
     assert isinstance(bands, tuple) and type(pickle.loads(pickle.dumps(bands))) is condyle.LimitBands
     old = pickle.loads(pickle.dumps(rom[0]))
     vars(old)["key_of_then"] = None

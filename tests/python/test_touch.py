@@ -116,7 +116,7 @@ def test_what_is_no_direction_or_mesh_is_refused():
         condyle.touch(BOX, ([[0, 0, 0]], np.empty((0, 3), int)))
     sheet = [[0, 0, 0.5], [2, 0, 0.5], [0, 2, 0.5]], [[0, 1, 2]]
     answer = condyle.touch(BOX, sheet)
-    assert answer.in_contact and [note.code for note in answer.notes] == ["open_mesh"]
+    assert answer.in_contact and [note.code for note in answer.notes] == ["unlikely_size", "open_mesh"]
 
 
 def test_the_lines_of_the_page_for_others_run(source):

@@ -126,7 +126,8 @@ def test_limits_and_poses_stay_the_models_or_are_refused(model, name, command, t
 
     def apart(joint):
         """Distances between points of both bodies, whatever their frames are."""
-        fixed, mobile = (np.asarray(mesh.vertices)[[0, 5, 9, 20]] for mesh in (joint._fixed, joint._mobile))
+        fixed, mobile = (np.asarray(mesh.vertices)[np.array([0, 5, 9, 20]) % len(mesh.vertices)]  # a box has 8
+                         for mesh in (joint._fixed, joint._mobile))
         return np.array([np.linalg.norm(fixed[:, None] - (mobile @ X[:3, :3].T + X[:3, 3])[None], axis=2)
                          for X in joint.motion(tmp_path / "m.mot").X_FM])
 

@@ -55,11 +55,11 @@ for command in rom report motion study sample; do
     after "$command" >/dev/null 2>said.txt || code=$?
     [ "$code" = 3 ] || fail "$command, fill $i: exit code $code: $(cat said.txt)"
     [ "$(grep -c 'No space left on device$' said.txt)" = 1 ] || fail "$command, fill $i: $(cat said.txt)"
-    diff -r room/before "$out" || fail "$command, fill $i: the earlier result is another"
+    diff -r -x .condyle-rows room/before "$out" || fail "$command, fill $i: the earlier result is another"
     [ "$(ls -A disk | sort | xargs)" = "filler result" ] || fail "$command, fill $i: left $(ls -A disk)"
     rm disk/filler
     after "$command" >/dev/null 2>&1
-    diff -r room/result "$out" || fail "$command, fill $i: other bytes after the disk was full"
+    diff -r -x .condyle-rows room/result "$out" || fail "$command, fill $i: other bytes after the disk was full"
     umount disk
     full=$((full + 1))
   done

@@ -322,7 +322,8 @@ void put_limit(const motion::RangeOfMotion& range, const PageMotion& motion, con
   const motion::Limit& end = motion.is_positive ? ends.positive : ends.negative;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Vec3 point = end.contact ? Vec3(end.contact->fixed_point + origin) : Vec3(none, none, none);
-  limit[0] = end.turned.degrees();
+  // At the end of its range a motion went as far as was asked, which radians are a rounding off.
+  limit[0] = end.turned == most ? motion.range_deg : end.turned.degrees();
   limit[1] = static_cast<double>(end.reason);
   limit[2] = static_cast<double>(end.kind());
   limit[3] = end.bearing_contact ? end.bearing_contact->turned.degrees() : -1;

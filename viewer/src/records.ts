@@ -30,8 +30,8 @@ export const bandWidthRecord = object({
 
 /// The limit over the joints of a band.
 export const bandRecord = object({
-  p5_deg: number, median_deg: number, p95_deg: number, text, width_from: bandWidthRecord, share_without_contact: number,
-  share_in_contact_at_start: number,
+  p5_deg: number, median_deg: number, p95_deg: number, text: text, width_from: bandWidthRecord,
+  share_without_contact: number, share_in_contact_at_start: number,
 });
 
 /// Means of simulations of bone in other people's hips; their spread is not given.

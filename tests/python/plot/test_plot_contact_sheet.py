@@ -110,5 +110,8 @@ def test_pages_are_one_pdf_and_the_same_bytes_again(tmp_path):
         figures.save([page, page], tmp_path / name)
     content = (tmp_path / "a.pdf").read_bytes()
     assert content == (tmp_path / "b.pdf").read_bytes() and len(re.findall(rb"/Type /Page\b", content)) == 2
-    with pytest.raises(ValueError, match="c.png: several figures are written as .pdf"):
-        figures.save([page], tmp_path / "c.png")
+    figures.save([page, page], tmp_path / "c.png")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.pdf", "b.pdf", "c-2.png", "c.png"]
+    assert all((tmp_path / name).read_bytes().startswith(b"\x89PNG") for name in ("c.png", "c-2.png"))
+    with pytest.raises(ValueError, match="c.gif: figures are written as .pdf, .svg or .png"):
+        figures.save([page], tmp_path / "c.gif")

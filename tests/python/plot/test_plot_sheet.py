@@ -386,18 +386,19 @@ def test_a_sweep_has_its_zone_its_targets_and_a_slice_of_more_than_two_parameter
 def test_what_the_command_writes_is_on_the_sheet(tmp_path, command, coarse_hip_file):
     """The writers are C++: a key that one of them renames is detected here."""
     for name, *options in (["rom", "--band=20"], ["resect", "--reach", "fadir=48", "--curve", "0"], ["measure"]):
-        subprocess.run([command, name, coarse_hip_file, *options, "--out", tmp_path], check=True, capture_output=True)
-    rom, plan = (json.loads((tmp_path / f"{name}.json").read_text()) for name in ("rom", "resection"))
-    found = read_case([tmp_path])
+        subprocess.run([command, name, coarse_hip_file, *options, "--out", tmp_path / name], check=True, capture_output=True)
+    paths = [tmp_path / name for name in ("measure/measures.json", "rom/rom.json", "resect/resection.json")]
+    rom, plan = (json.loads(path.read_text()) for path in paths[1:])
+    found = read_case([tmp_path / name for name in ("measure", "rom", "resect")])
     assert list(found.paths) == ["rom", "plan", "measures"]
-    pages = figures.sheet([tmp_path / "measures.json", tmp_path / "rom.json", tmp_path / "resection.json"])
+    pages = figures.sheet(paths)
     said = texts_of(pages)
     assert is_tidy(pages) and len([ax for page in pages for ax in page.axes if ax.images]) == 1
     for limit, changed in zip(rom["motions"], plan["limits"]):
         assert limit["name"] == changed["motion"] and figures.words.motion_name(limit["name"]) in said
         if limit["reason"] == "contact":
             assert f"{limit['limit_deg']:.1f}°" in said and (changed["gain_deg"] < 0.05 or f"{changed['after']['limit_deg']:.1f}°" in said)
-    assert f"{plan['cuts'][0]['volume_mm3']:.1f} mm³ of femur" in said and f"{plan['cuts'][0]['deepest_mm']:.1f} mm at the deepest" in said
+    assert f"{plan['cuts'][0]['volume_mm3']:.0f} mm³ of femur" in said and f"{plan['cuts'][0]['deepest_mm']:.1f} mm at the deepest" in said
     assert "After the cut it " in said and all(note.text in said for note in sheet_text.notes(found))
     assert "• Femoral version: the mesh ends above the knee" in said
     assert rom["provenance"]["mobile_mesh"]["sha256"][:8] in said and "alpha at 1:30 " in said and " (30–66)" in said
