@@ -20,7 +20,7 @@ void print(std::string_view answer);
 /// One of an answer has a `code`.
 void note(std::string remark, std::string code = {});
 
-/// Of the notes with a code the first `count` are said, and the codes of the others in a line.
+/// Limits the notes that are printed to the first `count`; one line names the codes of the others.
 void say_at_most(std::size_t count);
 
 /// Says the notes that wait.

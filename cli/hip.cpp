@@ -267,7 +267,7 @@ std::vector<std::vector<double>> pieces_of_work(const HipArguments& options, boo
   return pieces;
 }
 
-/// What can be told before the work.
+/// Refuses wrong bones before the work.
 void check_bones(const HipArguments& options, bool are_labels) {
   if (!are_labels) (void)io::mesh_format_of(options.pelvis);
   for (const std::string& femur : options.femora)

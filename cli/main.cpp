@@ -246,7 +246,7 @@ int run(const std::vector<std::string>& words) {
     app.parse(reversed);
   } catch (const CLI::Success& request) {  // --help or --version
     if (dynamic_cast<const CLI::CallForVersion*>(&request)) return cli::print(app.version() + "\n"), 0;
-    // Of a command that does not exist there is no help.
+    // A command that does not exist has no help.
     const CLI::App& command = named_command(app);
     if (const auto unknown = app.remaining(true);
         !unknown.empty() && !unknown.front().starts_with('-') && !commands_of(command).empty())

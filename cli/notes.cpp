@@ -10,6 +10,7 @@
 
 #include "answer.hpp"
 #include "condyle/error.hpp"
+#include "kinematics/wrong_set_up.hpp"
 
 namespace condyle::cli {
 
@@ -22,22 +23,6 @@ void add_strict(CLI::App& command, Strictness& strictness, const std::string& or
 }
 
 namespace {
-
-/// No number of the joint holds: docs/checks.md.
-bool is_grave(const JointNote& note) noexcept {
-  switch (note.code) {
-    case JointNoteCode::same_mesh:
-    case JointNoteCode::swapped_bodies:
-    case JointNoteCode::axes_not_upright:
-    case JointNoteCode::axes_turned:
-    case JointNoteCode::wrong_side:
-    case JointNoteCode::mirrored:
-    case JointNoteCode::bodies_disagree:
-      return true;
-    default:
-      return false;
-  }
-}
 
 template <class Note>
 void say(const std::vector<Note>& notes, const std::string& file, Strictness strictness,
@@ -56,7 +41,8 @@ void say(const std::vector<Note>& notes, const std::string& file, Strictness str
 std::vector<JointNote> noted(const io::LoadedJoint& joint, Strictness strictness, std::string_view whose) {
   std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
   std::vector<JointNote> gravest_first = notes;
-  std::stable_partition(gravest_first.begin(), gravest_first.end(), is_grave);
+  std::stable_partition(gravest_first.begin(), gravest_first.end(),
+                        [](const auto& note) { return kinematics::is_wrong_set_up(note.code); });
   say(gravest_first, joint.report.file.path.string(), strictness, whose);
   return notes;
 }

@@ -42,7 +42,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(std::size_t done, std::size_t total);
-  /// Of all the work, 0 to 1.
+  /// `share` is that of all the work, 0 to 1.
   void update(double share);
 
  private:

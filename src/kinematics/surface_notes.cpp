@@ -11,7 +11,7 @@ namespace {
 
 using core::formatted;
 
-/// Of a mesh that is not closed: open, or wound differently where nothing is open.
+/// The note of a mesh that is not closed: it is open, or its orientation is not consistent.
 JointNote not_closed(const std::string& name, const Mesh& mesh) {
   const mesh::EdgeTable& edges = mesh::edges_of(mesh);
   std::size_t unbalanced = 0;

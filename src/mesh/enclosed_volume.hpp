@@ -43,7 +43,7 @@ inline double volume_below(const TriMesh& mesh, std::size_t triangle, const Vec3
 /// Volume that a closed mesh encloses; negative where it is inverted.
 double enclosed_volume(const TriMesh& mesh);
 
-/// Whether that is negative, which mostly a plain sum tells, and of a two-sided mesh only rounding. Linear.
+/// Whether that is negative. A plain sum decides mostly; the sign of a two-sided mesh is rounding. Linear.
 bool is_inside_out(const TriMesh& mesh);
 
 }  // namespace condyle::mesh

@@ -243,7 +243,7 @@ bool take_pieces_of_joint(RequestedBone& fixed, RequestedBone& mobile, const std
     if (bone) of.bone = *std::move(bone);
     return bone.has_value();
   };
-  // Of a bone in fragments the one beside the other bone is meant, whichever side it is on.
+  // If a bone is in fragments, the one beside the other bone is meant, whichever side it is on.
   const std::vector<JointNote>& notes = mobile.bone.image.notes;
   const bool is_in_fragments = std::any_of(notes.begin(), notes.end(), [](const JointNote& note) {
     return note.code == JointNoteCode::pieces_left_out;

@@ -34,7 +34,7 @@ struct Summary {
   };
   Largest area, depth, pressure, force;
   Largest nearest;  ///< the smallest gap
-  /// Of the frames that were judged: how many are in each state, and those of least clearance and nearest to a limit.
+  /// How many judged frames are in each state, and which have the least clearance and are nearest to a limit.
   std::array<std::size_t, 6> states{};
   std::optional<std::size_t> tightest = {}, nearest_limit = {};
   std::string state_unknown_why = {};
