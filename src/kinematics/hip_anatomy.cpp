@@ -159,6 +159,12 @@ std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& fe
   anatomy.head = *std::move(found);
   const Sphere& head = anatomy.head.fit.sphere;
   anatomy.socket = find_socket(hip_bone, head);
+  if (!anatomy.socket) {
+    // A hip bone has round places too: are the bones exchanged?
+    const auto other = head_in_socket(femur, hip_bone);
+    if (other && other->coverage > anatomy.head.coverage && find_socket(femur, other->fit.sphere))
+      return std::nullopt;
+  }
   anatomy.towards_femur = (area_centroid(femur) - head.centre).normalized();
   anatomy.towards_pelvis = (area_centroid(hip_bone) - head.centre).normalized();
   anatomy.towards_neck = towards_neck(femur, head);

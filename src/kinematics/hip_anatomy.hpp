@@ -48,8 +48,8 @@ std::optional<SphericalPatch> head_in_socket(const TriMesh& hip_bone, const TriM
                                              std::size_t resamples = 0,
                                              std::optional<bool> femur_is_open = {});
 
-/// Anatomy of a femur whose head lies near the hip bone; empty if no head is found there. Some milliseconds per
-/// 10,000 triangles.
+/// Anatomy of a femur whose head lies near the hip bone; empty if no head is found there, and if the bones are exchanged: what is found has
+/// no socket, and the hip bone has a fuller head in a socket of the femur. Some milliseconds per 10,000 triangles.
 std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& femur);
 
 }  // namespace condyle::kinematics

@@ -100,15 +100,6 @@ bool are_exchanged(const TriMesh& fixed, const TriMesh& mobile, const ProposalFa
                        : !kinematics::hip_axes(mobile, *hip, {}).agreeing.empty();
 }
 
-/// Whether what was found has no socket, and has one with the roles exchanged: a hip bone has round places too.
-bool is_hip_if_exchanged(const kinematics::HipAnatomy& found, const TriMesh& fixed, const TriMesh& mobile,
-                         const ProposalFacts& facts) {
-  if (found.socket) return false;
-  const auto other = kinematics::hip_anatomy(mobile, fixed);
-  return other && other->socket && other->head.coverage > found.head.coverage &&
-         are_exchanged(fixed, mobile, facts);
-}
-
 constexpr const char* exchanged = "are the bones exchanged? The hip bone comes first, then the femur";
 
 /// `stated_per_mm`: a piece of a mesh is found by a centre in figures, in the unit of the mesh.
@@ -146,7 +137,6 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   fixed.mesh = surface_in_mm(fixed, units);
   mobile.mesh = surface_in_mm(mobile, units);
   auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
-  if (hip && is_hip_if_exchanged(*hip, fixed.mesh, mobile.mesh, facts)) hip.reset();
   for (ProposedBody* body : {&fixed, &mobile})
     if (hip && !body->image)
       if (auto half = half_at(body->mesh, hip->head.fit.sphere)) {
