@@ -23,7 +23,7 @@ export function planInShort({ targets, cuts, margin_mm }: StoredPlan, names: Rec
     cuts.length
       ? lines(cuts.map((cut) => words.cut({ ...cut, name: names[cut.body], hour: cut.deepest_hour === null ? null : clockTime(cut.deepest_hour) })))
       : html("p", {}, words.nothingGoes),
-    ...(margin_mm > 0 ? [html("p", {}, words.plannedMargin(String(margin_mm)))] : []),
+    ...(margin_mm > 0 ? [html("p", {}, words.plannedMargin(String(Number(margin_mm.toPrecision(3)))))] : []),
   ];
 }
 
