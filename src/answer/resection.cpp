@@ -367,9 +367,12 @@ class MarginSearch {
   int failures_ = 0;
 };
 
-/// The plan with which the requested share reaches the targets; false if it was stopped.
+/// The plan with which the requested share reaches the targets; false if it was stopped. If kept bone blocks all of them no margin helps.
 bool reach_share(const ResectionRequest& request, const motion::BandOptions& displaced,
                  const Control& control, Cuts& cuts, ResectionAnswer& answer) {
+  const std::vector<plan::ReachOutcome>& targets = answer.resection.targets;
+  if (std::all_of(targets.begin(), targets.end(), [](const auto& target) { return target.blocked; }))
+    return true;
   MarginSearch search(request, displaced, control, cuts);
   if (!search.add(answer.margin_mm, std::move(answer.resection))) return false;
   std::optional<double> margin_mm;
@@ -456,7 +459,7 @@ std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
                   100 * *reached, answer.displaced, answer.resection.joint.is_hip() ? "hips" : "joints") +
         formatted(", %.4g mm3", answer.resection.volume_mm3());
   for (const ResectionAnswer::ResectionAlternative& each : answer.alternatives)
-    if (each.confidence != answer.confidence)
+    if (each.confidence != answer.confidence && !outcome.blocked)
       said += formatted("; in %.4g %%: %.4g mm3", 100 * each.confidence, each.volume_mm3);
   if (!other) return said;
   const char* const names[] = {"the head's", "the socket's"};

@@ -107,6 +107,14 @@ TEST_F(WrittenLimits, LeaveTheRestOfAModelAsItIs) {
   // Written again, the forces are replaced.
   written("--write-limits twice.osim --model once.osim");
   EXPECT_EQ(io::read_model(folder_ / "twice.osim").ignored, io::read_model(folder_ / "once.osim").ignored);
+  // Somebody else's stays, and is named.
+  std::string mixed = text_of(folder_ / "once.osim");
+  mixed.replace(mixed.find("condyle_limit_flex"), 18, "soft stop");
+  std::ofstream(folder_ / "mixed.osim", std::ios::binary) << mixed;
+  const std::string said = written("--write-limits thrice.osim --model mixed.osim").out;
+  EXPECT_NE(said.find("flex has a stop of the model's own too, which stays: 'soft stop': held"), said.npos)
+      << said;
+  EXPECT_NE(text_of(folder_ / "thrice.osim").find("which stays: 'soft stop'"), said.npos);
 }
 
 TEST_F(WrittenLimits, OfMuJoCoTurnAboutTheModelsAxesInItsSense) {

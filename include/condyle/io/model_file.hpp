@@ -41,6 +41,8 @@ struct ModelCoordinate {
   bool is_clamped = true, is_locked = false, is_prescribed = false;
   /// Where forces of the model begin to hold it, CoordinateLimitForce or CoordinateLinearStopForce; of several the narrowest.
   std::optional<std::array<double, 2>> stop = {};
+  /// The names of those forces that Condyle did not write, which stay in a copy of the model; empty without any.
+  std::string stop_by_others = {};
 };
 
 /// "held from -20.5 to 135.25 deg by a force" or m, between these words; empty without such a force.
@@ -153,6 +155,7 @@ enum class ModelNoteCode : std::uint8_t {
   no_name,              ///< A body or joint without a name, for which nobody can ask.
   ligament_left_out,    ///< It has what no string of two bodies has, or is not applied.
   endless_cylinder,     ///< A ligament wraps a cylinder, whose ends are not looked at.
+  unlikely_range,       ///< A coordinate that turns by more than two turns, as degrees typed for radians do.
   left_out,             ///< A component that cannot be read, and why; nothing that was asked for needs it.
 };
 /// As written: "missing_mesh".

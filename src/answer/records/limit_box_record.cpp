@@ -159,7 +159,7 @@ std::optional<LimitBoxRecord> limit_box_record(const Case& of, const RangeAnswer
                        " moves nothing: contact or a ligament holds it on either side of zero");
     if (coordinate.sign < 0) std::swap(lower, upper);
     box.coordinates.push_back({coordinate.name, coordinate.angle, coordinate.sign, coordinate.offset_deg,
-                               std::move(lower), std::move(upper)});
+                               std::move(lower), std::move(upper), coordinate.other_stop});
   }
   if (answer.joint.kind == JointKind::hinge) return box;
   std::optional<motion::MotionMap> map = answer.map;

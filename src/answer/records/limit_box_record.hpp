@@ -22,6 +22,8 @@ struct TurningCoordinate {
   JointAngle angle;
   double sign = 1;  ///< or -1
   double offset_deg = 0;
+  /// Forces of the model that hold it too, by their names and where they begin to, if limits are written into its copy, where they stay.
+  std::optional<std::string> other_stop = {};
 };
 
 /// Whose limit an end of a box is.
@@ -50,6 +52,7 @@ struct BoxSideRecord {
   JointAngle angle;
   double sign, offset_deg;
   BoxEndRecord lower, upper;
+  std::optional<std::string> other_stop;  ///< TurningCoordinate::other_stop
 };
 
 /// How far the box is from the coupled limits at the points of a map, of which each has the free interval that MotionMap draws. Points are values
@@ -101,7 +104,7 @@ inline constexpr auto table<BoxEndRecord> = record("BoxEnd", "An end of a coordi
 template <>
 inline constexpr auto table<BoxSideRecord> = record("BoxSide", "The limits of a coordinate.",
                                                     CONDYLE_KEYS(BoxSideRecord, coordinate, angle, sign,
-                                                                 offset_deg, lower, upper));
+                                                                 offset_deg, lower, upper, other_stop));
 template <>
 inline constexpr auto table<BoxErrorRecord> =
     record("BoxError", "How far independent limits are from coupled ones.",

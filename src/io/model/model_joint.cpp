@@ -38,6 +38,7 @@ std::string_view name_of(ModelNoteCode code) noexcept {
                                         "no_name",
                                         "ligament_left_out",
                                         "endless_cylinder",
+                                        "unlikely_range",
                                         "left_out"};
   static_assert(std::size(names) == static_cast<std::size_t>(ModelNoteCode::left_out) + 1);
   return names[static_cast<std::size_t>(code)];

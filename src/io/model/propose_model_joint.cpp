@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -514,6 +515,16 @@ class ModelJointFile {
            fmt::format("the child body, {}, is the proximal bone: angles are of it in {}, so a flexion of "
                        "the joint is negative here, and so on",
                        in_quotes(joint_.child_body), in_quotes(joint_.parent_body)));
+    // New coordinates of OpenSim have ends of 10 rad, and those without limits ends of 99999.9.
+    constexpr double most_turned = 4 * std::numbers::pi, most_degrees = 720;
+    for (const ModelCoordinate& coordinate : joint_.coordinates) {
+      if (coordinate.motion != CoordinateMotion::rotational || !coordinate.range) continue;
+      const auto& [low, high] = *coordinate.range;
+      if (const double most = std::max(-low, high); most > most_turned && most <= most_degrees)
+        note(ModelNoteCode::unlikely_range,
+             fmt::format("coordinate {} has a range from {:g} to {:g} rad, over two turns: is it in degrees?",
+                         in_quotes(coordinate.name), low, high));
+    }
     if (const ModelCoupler* coupler = coupler_of_joint())
       note(ModelNoteCode::coupled_coordinate,
            fmt::format("coordinate {} follows {} by constraint {}, where a motion has no column of it",

@@ -324,7 +324,7 @@ class ModelReader {
 
   /// A force that begins to act where a coordinate leaves these ends.
   struct Stop {
-    std::string coordinate;
+    std::string name, coordinate;
     std::array<double, 2> ends;
     bool has_degrees;  ///< of a rotational coordinate
   };
@@ -332,7 +332,8 @@ class ModelReader {
   void read_stop(const XmlElement& element) {
     const ModelElement values(source_, element, fmt::format("force {}", in_quotes(element.label())));
     if (!values.flag("appliesForce", true) || values.flag("isDisabled", false)) return;
-    stops_.push_back({last_of_path(values.text("coordinate")),
+    stops_.push_back({std::string(element.label()),
+                      last_of_path(values.text("coordinate")),
                       {values.number("lower_limit", 0), values.number("upper_limit", 0)},
                       element.name == "CoordinateLimitForce"});
   }
@@ -347,6 +348,9 @@ class ModelReader {
           const double lower = unit * stop.ends[0], upper = unit * stop.ends[1];
           const auto before = coordinate.stop.value_or(std::array{lower, upper});
           coordinate.stop = {std::max(before[0], lower), std::min(before[1], upper)};
+          if (!stop.name.starts_with("condyle_limit_"))
+            coordinate.stop_by_others +=
+                (coordinate.stop_by_others.empty() ? "" : ", ") + in_quotes(stop.name);
         }
   }
 

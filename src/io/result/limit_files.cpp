@@ -146,9 +146,9 @@ std::string model_text(const LimitFile& file, const LoadedJoint& joint,
                      names_in(columns_of(joint)->front().column).first, ranges, file.stop, comment);
 }
 
-/// Poses by the model against poses by the joint file: of each coordinate by itself, and of all at once.
-void require_same_meaning(const std::filesystem::path& path, const LoadedJoint& joint,
-                          const ZeroOfColumns& zero) {
+/// The model's joint, after poses by the model are held against poses by the joint file: of each coordinate by itself, and of all at once.
+ModelJoint joint_of_same_meaning(const std::filesystem::path& path, const LoadedJoint& joint,
+                                 const ZeroOfColumns& zero) {
   const std::vector<ColumnOfCoordinate>& columns = *columns_of(joint);
   const auto [name, first] = names_in(columns.front().column);
   const Model model = read_model(path);
@@ -160,7 +160,7 @@ void require_same_meaning(const std::filesystem::path& path, const LoadedJoint& 
                                 [&, name = name, first = first](const ModelJoint& each) {
                                   return name.empty() ? has(each, first) : each.name == name;
                                 });
-  if (its == model.joints.end()) return;  // with_limits() says so
+  if (its == model.joints.end()) return {};  // with_limits() says so
   for (const ModelCoupler& coupler : model.couplers)
     if (has(*its, coupler.dependent))
       throw FileError(fmt::format("{}: constraint {} moves coordinate {}: no limit of it by itself holds",
@@ -193,6 +193,7 @@ void require_same_meaning(const std::filesystem::path& path, const LoadedJoint& 
   }
   for (std::size_t i = 0; i < at.size(); ++i) at[i] = values[i];
   check("joint " + in_quotes(its->name) + " turns");
+  return *its;
 }
 
 /// A free joint's limits are those at one translation, which its model or its recorded motion moves.
@@ -302,7 +303,10 @@ LimitCoordinates limit_coordinates(const LoadedJoint& joint, const LimitFile& fi
   }
   if (file.model) {
     (void)model_text(file, joint, ranges, "");
-    require_same_meaning(*file.model, joint, zero);
+    for (const ModelCoordinate& its : joint_of_same_meaning(*file.model, joint, zero).coordinates)
+      for (TurningCoordinate& each : known_by.coordinates)
+        if (each.name == its.name && !its.stop_by_others.empty())
+          each.other_stop = its.stop_by_others + stop_text(its, ": ", "");
   }
   if (is_moved(zero, joint.joint)) {
     if (holds_translation)
@@ -340,6 +344,10 @@ std::string limit_box_text(const LimitBoxRecord& box) {
   }
   std::string text = "limits of each coordinate by itself, the others at zero angles\n" +
                      table_text(std::array{name, lower, of_lower, upper, of_upper}) + error_text(box);
+  for (const BoxSideRecord& side : box.coordinates)
+    if (side.other_stop)
+      text += wrapped(fmt::format("  {} has a stop of the model's own too, which stays: {}\n",
+                                  side.coordinate, *side.other_stop));
   if (const auto& held = box.held_translation_mm)
     text +=
         fmt::format("  with the translation held at {:g}, {:g}, {:g} mm\n", held->x(), held->y(), held->z());
