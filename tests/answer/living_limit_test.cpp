@@ -125,11 +125,11 @@ TEST(LivingLimit, ExpectsNoEndWhereADepthWasAllowed) {
 
 TEST(LivingLimit, IsOfNativeHipsWhoseZeroIsNeutralOnly) {
   const motion::MotionLimit usual = impinging(flexion, plus, 0, 120);
-  for (const auto& change : {+[](Joint& joint) { joint.zero_from = ZeroFrom::as_given; },
-                             +[](Joint& joint) { joint.implant.emplace(); },
-                             +[](Joint& joint) { joint.person.species = "cat"; },
-                             +[](Joint& joint) { joint.anatomy = Anatomy::shoulder; },
-                             +[](Joint& joint) { joint.kind = JointKind::hinge; }}) {
+  for (const auto& change :
+       {+[](Joint& joint) { joint.zero_from = ZeroFrom::as_given; },
+        +[](Joint& joint) { joint.implant.emplace(); }, +[](Joint& joint) { joint.person.species = "cat"; },
+        +[](Joint& joint) { joint.anatomy = Anatomy::shoulder; },
+        +[](Joint& joint) { joint.kind = JointKind::hinge; }}) {
     Joint joint = small_hip();
     ASSERT_TRUE(living_limit(joint, usual, nullptr));
     change(joint);

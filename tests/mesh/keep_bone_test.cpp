@@ -45,7 +45,8 @@ TEST(KeepBone, TakesHalvesBesideEachOtherForTwo) {
   const Block right{{0, 0, 0}, {40, 20, 40}}, left{{43, 0, 0}, {83, 20, 40}};
   EXPECT_EQ(kept({right, left}, 1, Vec3(0, 0, 0)), "32000 -32000*") << "a symphysis";
   EXPECT_EQ(kept({right, left}, 1, Vec3(83, 0, 0)), "32000 -32000*");
-  EXPECT_EQ(kept({right, {{43, 0, 0}, {53, 20, 20}}}, 1), "36000") << "a fragment, an eighth, beside its bone";
+  EXPECT_EQ(kept({right, {{43, 0, 0}, {53, 20, 20}}}, 1), "36000")
+      << "a fragment, an eighth, beside its bone";
   EXPECT_EQ(kept({{{0, 0, 0}, {40, 40, 20}}, {{0, 0, 23}, {40, 40, 43}}}, 1), "64000") << "above it";
 }
 
