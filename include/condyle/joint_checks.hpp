@@ -24,6 +24,7 @@ enum class JointNoteCode : std::uint8_t {
   doubled_triangles,  ///< Closed, with triangles that lie on others: what they enclose counts twice.
   part_is_most,  ///< A part that is cut off the fixed body is more of it than the rest: normals that point inwards.
   pieces_left_out,      ///< Pieces of the label of a bone are not in its surface.
+  gap_in_bone,          ///< Pieces that face each other across a gap are one bone; nothing fills the gap.
   interpolated_labels,  ///< Labels were interpolated and rounded: a bone lies in a shell of others.
   thick_slices,         ///< Voxels are too large to resolve the joint space.
   cut_by_view,          ///< It ends where its image ends: what is missing may end a motion earlier.

@@ -127,8 +127,8 @@ struct Resection {
 /// margin stay those that the bearing surface of this joint has: a fit to a mesh with smaller triangles in places would move them.
 [[nodiscard]] Joint with_mobile_mesh(const Joint& joint, Mesh mesh);
 
-/// The request with every target counted from its motion's start. Throws UsageError, as check_resection(), for a gain of a motion that nothing
-/// ends, and one that leads beyond the motion's range; and as RangeOfMotion does.
+/// The request with every target counted from its motion's start. Throws UsageError as check_resection(), and for a gain that leads beyond
+/// the motion's range; MeshError for a gain of a motion that nothing ends; and as RangeOfMotion does.
 [[nodiscard]] ResectionOptions with_gains_resolved(const Joint& joint, const ResectionOptions& request);
 
 /// Throws UsageError for a request without targets, two of one motion, reaches that are not within the motion's range, and values outside

@@ -429,6 +429,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "part_is_most";
     case JointNoteCode::pieces_left_out:
       return "pieces_left_out";
+    case JointNoteCode::gap_in_bone:
+      return "gap_in_bone";
     case JointNoteCode::interpolated_labels:
       return "interpolated_labels";
     case JointNoteCode::thick_slices:

@@ -108,7 +108,7 @@ ResectionOptions with_gains_resolved(const Joint& joint, const ResectionOptions&
     const motion::Limit end = now->limit(target.motion).end;
     const std::string& name = target.motion.name;
     if (end.reason == motion::LimitReason::end_of_range)
-      throw UsageError("resection: nothing ends " + name + " within its range of " +
+      throw MeshError("resection: nothing ends " + name + " within its range of " +
                        degrees(target.motion.range) + " degrees: it has nothing to gain");
     if (end.turned + target.reach > target.motion.range)
       throw UsageError("resection: " + name + " ends at " + degrees(end.turned) + " degrees, and " +

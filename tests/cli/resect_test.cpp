@@ -278,7 +278,7 @@ TEST_F(ResectCommand, RefusesInOneLine) {
         {"--reach flexion=140 --share 0.3", 2, "--share: only with --from both"},
         {"--reach flexion=140 --curve -1", 2, "--curve: "},
         {"--reach flexion=140 --band=20 --confidence 1", 2, "confidence must be above 0 and below 1"},
-        {"--reach flexion=140 --margin 1 --confidence 0.8", 2, "--confidence excludes --margin"},
+        {"--reach flexion=140 --margin 1 --confidence 0.8", 2, "--margin excludes --confidence"},
         {"--reach flexion=140 --confidence 0.8", 2,
          "--confidence: is a share of displaced joints, and there are none"},
         {"--reach flexion=140 --burr 0.4", 2, "burr's diameter must be from 0.5 to 30 mm"},

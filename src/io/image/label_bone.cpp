@@ -90,6 +90,13 @@ void note_pieces(LabelBone& bone, std::string_view kept_for, bool chooses, doubl
                     : ", all of them kept";
   if (dropped > other_side_mm3 + least_noted_piece * kept)
     bone.image.notes.push_back({JointNoteCode::pieces_left_out, text});
+  if (chooses && kept_pieces > 1)
+    bone.image.notes.push_back(
+        {JointNoteCode::gap_in_bone,
+         fmt::format(
+             "{} pieces of {} that face each other are taken together as one bone; what lies between them, "
+             "cartilage or a fracture, is in no surface: a motion that ends there in life goes on here",
+             kept_pieces, bone.name)});
   bone.notes.push_back({LabelNoteCode::pieces, std::move(text)});
 }
 

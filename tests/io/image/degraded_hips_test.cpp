@@ -170,8 +170,10 @@ std::string fault_of(Kind kind, const Hip& hip, const io::LabelMap& map) {
       return Body{of.name, Mesh(of.surface.mesh), {}, of.image};
     };
     const PlacedJoint joint = placed(hip.side, body(found.fixed), body(found.mobile));
+    // A note of a gap is no excuse: the pieces together are the bone.
     for (const JointNote& note : check_joint(joint.joint, joint.placement))
-      text += std::string(name_of(note.code)) + ": " + note.text + "; ";
+      if (note.code != JointNoteCode::gap_in_bone && note.code != JointNoteCode::separate_pieces)
+        text += std::string(name_of(note.code)) + ": " + note.text + "; ";
     if (kind != Kind::good && !text.empty()) return "";
     const std::vector<double> limits = limits_of(joint.joint);
     for (std::size_t m = 0; m < limits.size(); ++m)
