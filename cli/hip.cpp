@@ -233,7 +233,13 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
     plan->bands = request.range.bands;
     plan->confidence = confidence_of(options.cut, plan->bands);
     plan->curve_points = 0;  // each costs a cut: condyle resect has them
-    check_gains(hip.loaded, request.range, *plan);
+    try {
+      check_gains(hip.loaded, request.range, *plan);
+    } catch (const UsageError&) {
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);  // all in it is of this run, which the next one may ask anew
+      throw;
+    }
   }
   hip.answer =
       with_progress([&](const Control& control) { return io::answer_report(hip.loaded, request, control); });

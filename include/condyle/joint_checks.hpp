@@ -41,12 +41,13 @@ enum class JointNoteCode : std::uint8_t {
   socket_smaller_than_head,  ///< By their fitted radii.
   socket_larger_than_head,   ///< So much that the head is none of a bone: an implant's ball without its cup.
   axes_not_upright,          ///< Superior does not point up the bones.
-  axes_turned,        ///< About superior: by 180 degrees, as where LPS is read as RAS, or a knee's by others.
-  wrong_side,         ///< The hip bone lies lateral of its socket, or a femur is shaped as the other side's.
-  mirrored,           ///< Only front and back are exchanged.
-  bodies_disagree,    ///< The two bodies are of different sides.
-  turned_leg,         ///< The femur of a hip does not lie in neutral where its angles are zero.
-  ligament_off_bone,  ///< A ligament ends off its body, or nearer to the other one.
+  axes_turned,      ///< About superior: by 180 degrees, as where LPS is read as RAS, or a knee's by others.
+  wrong_side,       ///< The hip bone lies lateral of its socket, or a femur is shaped as the other side's.
+  mirrored,         ///< Only front and back are exchanged.
+  bodies_disagree,  ///< The two bodies are of different sides.
+  unlikely_version,  ///< The socket opens hardly in front of the neck: the bodies are in different frames, or retroverted.
+  turned_leg,             ///< The femur of a hip does not lie in neutral where its angles are zero.
+  ligament_off_bone,      ///< A ligament ends off its body, or nearer to the other one.
   ligament_through_bone,  ///< Its straight part runs through a body in the pose in which the meshes are given.
   unlikely_strain,        ///< A strain or slack length that no ligament has, as in per cent or another unit.
   mixed_orientation,      ///< Neighbours are wound differently: no inside, though there is no boundary.

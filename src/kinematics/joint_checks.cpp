@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "core/formatted.hpp"
 #include "core/parallel.hpp"
 #include "core/rounded.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/body_pieces.hpp"
 #include "kinematics/bone_sizes.hpp"
 #include "kinematics/cut_parts.hpp"
@@ -60,6 +62,10 @@ constexpr double least_lever = 1;
 constexpr double opposed_cosine = -0.1, upright = 0.3;
 /// A hip bone that shows less forwards than right ones do may be turned about superior: its shape decides, by so many margins of its votes.
 constexpr double usual_forwards = 0.25, least_shape_vote = 1;
+
+/// How far in front of the neck a socket opens, seen from above, degrees, is the versions of both together: 30 to 40 is normal, 20 and less severe
+/// retroversion (Tönnis and Heinecke 1999). Directions whose horizontal part is shorter have no front.
+constexpr double least_version_deg = 20, least_horizontal = 0.3;
 
 class Notes {
  public:
@@ -247,6 +253,26 @@ Evidence of_hip_bone(const Vec3& mass, const Vec3& opening, double rightwards) {
   return {-rightwards * both.z(), -both.x(), both.y()};
 }
 
+/// A femur that is turned by 180 degrees about superior lies as one of the other side with its neck turned back. Both sides' sockets of a pelvis
+/// may be there for it: about y = 0, LPS and RAS differ by nothing else.
+void check_version(const Joint& joint, const Vec3& neck, const Vec3& opening, Notes& notes) {
+  const double rightwards = joint.side == Side::right ? 1 : -1;
+  const auto forwards_deg = [&](const Vec3& v) {
+    return core::arctangent(v.x(), rightwards * v.z()) * 180 / std::numbers::pi;
+  };
+  for (const Vec3& v : {neck, opening})
+    if (!(core::hypotenuse(v.x(), v.z()) >= least_horizontal)) return;
+  const double version_deg = forwards_deg(opening) - forwards_deg(neck);
+  if (version_deg >= least_version_deg) return;
+  notes.add(
+      JointNoteCode::unlikely_version,
+      formatted(
+          "the socket of %s opens %.0f degrees in front of the neck of %s, of most hips 30 to 40: both "
+          "retroverted, or one turned by 180 degrees about superior, as where one file is in LPS and the "
+          "other in RAS",
+          joint.fixed.name.c_str(), version_deg, joint.mobile.name.c_str()));
+}
+
 void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPatch& socket, Notes& notes) {
   const double rightwards = joint.side == Side::right ? 1 : -1;
   const Vec3 mass =
@@ -257,8 +283,9 @@ void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPa
       shaft.norm() < least_lever * head.fit.sphere.radius)
     return;
   const std::string &fixed = joint.fixed.name, &mobile = joint.mobile.name;
-  const Evidence bone =
-      of_hip_bone(mass, open_side(kinematics::uncut_surface(joint.fixed), socket), rightwards);
+  const Vec3 opening = open_side(kinematics::uncut_surface(joint.fixed), socket),
+             neck = open_side(joint.mobile.mesh, head);
+  const Evidence bone = of_hip_bone(mass, opening, rightwards);
   if (bone.superior < upright) {
     notes.add(JointNoteCode::axes_not_upright,
               fixed + " does not lie above its socket: superior does not point up");
@@ -270,7 +297,7 @@ void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPa
         mobile + " does not hang down from its head at zero angles: superior or the reference pose is wrong");
     return;
   }
-  const double neck_outwards = rightwards * open_side(joint.mobile.mesh, head).z();
+  const double neck_outwards = rightwards * neck.z();
   const std::string side = joint.side == Side::right ? "right" : "left";
   const bool lateral = bone.medial < opposed_cosine, backwards = bone.anterior < opposed_cosine;
   const auto has_shape_of_side = [&] {
@@ -298,6 +325,8 @@ void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPa
     notes.add(JointNoteCode::mirrored,
               "the socket of " + fixed +
                   " opens backwards: front and back are mirrored, or the axes are turned by a quarter");
+  else
+    check_version(joint, neck, opening, notes);
 }
 
 /// Coarse meshes, as those of models of gait, have no sockets.
@@ -471,6 +500,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "mirrored";
     case JointNoteCode::bodies_disagree:
       return "bodies_disagree";
+    case JointNoteCode::unlikely_version:
+      return "unlikely_version";
     case JointNoteCode::turned_leg:
       return "turned_leg";
     case JointNoteCode::ligament_off_bone:

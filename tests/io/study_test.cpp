@@ -235,6 +235,8 @@ TEST_F(StudyOfArms, HasBandsMapAndDepthWhereTheyAreAskedFor) {
     if (SmallCohort::wall_mm(k) <= 40) continue;
     const bool meets = std::stod(limits[2 * (k - 1)].at("limit_deg")) < 35;
     EXPECT_EQ(hips[k - 1].at("depth_in_contact"), meets ? "1" : "0") << k;
+    EXPECT_EQ(hips[k - 1].at("depth_state"), meets ? "contact" : "free") << k;
+    EXPECT_EQ(hips[k - 1].at("depth_to_limit_deg").empty(), meets) << k;
   }
   run(study("plain"));
   EXPECT_FALSE(rows_of(folder / "plain/limits.csv")[0].contains("band_p5_deg"));

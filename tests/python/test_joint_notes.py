@@ -9,8 +9,11 @@ import warnings
 
 import numpy as np
 import pytest
+from report_data import text_of
 
 import condyle
+from condyle.plot import sheet_text
+from condyle.plot.case_files import read_case
 
 
 @pytest.fixture
@@ -136,3 +139,42 @@ def test_a_study_warns_of_its_joints(hip_file, tmp_path):
         f"id,fixed,mobile,side\nhip7,{hip_file.parent}/hip_bone.ply,{hip_file.parent}/femur.ply,left\n")
     said, = warnings_of(lambda: condyle.run_study(tmp_path / "table.csv", tmp_path / "out", motions=["flexion"]))
     assert str(said.message) == "hip7: wrong_side"
+
+
+LEFT_OUT = {"pieces_left_out": "hip bone is in 2 pieces: 900 mm3 are left out", "gap_in_bone": "2 pieces of hip bone are one bone",
+            "interpolated_labels": "31 % of the border of hip bone is one voxel thick"}
+"""What a label map can leave out of a bone; thick_slices follows from its voxels."""
+
+
+def test_what_a_map_leaves_out_stands_in_every_document(command, sampled, tmp_path):
+    file = sampled(tmp_path, "hip") / "hip.toml"
+    notes = "".join(f'[[fixed.image.note]]\ncode = "{code}"\ntext = "{text}"\n' for code, text in LEFT_OUT.items())
+    file.write_text(f"{file.read_text()}\n[fixed.image]\nvoxel_i = [1, 0, 0]\nvoxel_j = [0, 1, 0]\nvoxel_k = [0, 0, 5]\n{notes}")
+    joint = condyle.read_joint(file)
+    said = {note.code: note.text for note in joint.notes}
+    assert set(said) == {*LEFT_OUT, "thick_slices"} and LEFT_OUT.items() <= said.items()
+
+    (tmp_path / "walk.csv").write_text("time,flexion_deg\n0,0\n1,1\n")
+    (tmp_path / "table.csv").write_text("id,joint\na,hip.toml\n")
+    asked = {"rom": ["--motion", "flexion", "--out", "case/limits"], "measure": ["--out", "case/measures"], "depth": [], "frame": [],
+             "resect": ["--reach", "flexion=+2", "--curve", "0", "--out", "case/plan"], "motion": ["--motion", "walk.csv", "--out", "walk"],
+             "report": ["--out", "hip.html"], "picture": ["--out", "hip.png"]}
+    for name, more in asked.items():
+        ran = subprocess.run([command, name, "hip.toml", *more], cwd=tmp_path, check=True, capture_output=True, text=True)
+        assert all(f"{code}: {text}" in ran.stderr for code, text in said.items()), name
+        strict = subprocess.run([command, name, "hip.toml", "--strict", *more], cwd=tmp_path, capture_output=True, text=True)
+        assert strict.returncode == 4 and all(code in strict.stderr for code in said), name
+    for name in ("depth", "frame", "rom", "measure"):
+        ran = subprocess.run([command, name, "hip.toml", "--json"], cwd=tmp_path, check=True, capture_output=True, text=True)
+        assert said.items() <= {note["code"]: note["text"] for note in json.loads(ran.stdout)["notes"]}.items(), name
+    subprocess.run([command, "study", "table.csv", "--motion", "flexion", "--out", "study"], cwd=tmp_path, check=True, capture_output=True)
+    assert set(said) <= set(re.search("^a,.*", (tmp_path / "study" / "hips.csv").read_text(), re.MULTILINE)[0].replace(",", " ").split())
+
+    for document in ("limits/rom.json", "limits/limits.csv", "measures/measures.json", "measures/measures.csv", "plan/resection.json",
+                     "plan/limits.csv", "../walk/motion.json"):
+        text = (tmp_path / "case" / document).read_text()
+        assert all(each in text for each in said.values()), document
+    page = json.dumps(text_of(tmp_path / "hip.html"))
+    assert all(each in page for each in said.values())
+    sheet = [note.text.lower() for note in sheet_text.notes(read_case([tmp_path / "case" / part for part in ("limits", "measures", "plan")]))]
+    assert all(any(each.lower() in line for line in sheet) for each in said.values())

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <new>
 
+#include "condyle/version.hpp"
+
 namespace condyle::io {
 namespace {
 
@@ -73,7 +75,10 @@ H5Silence::~H5Silence() {
   H5Eset_auto2(H5E_DEFAULT, function_, data_);
 }
 
-H5Image::H5Image() : file_(created_in_memory(), H5Fclose) {}
+H5Image::H5Image() : file_(created_in_memory(), H5Fclose) {
+  attribute("/", "condyle_version",
+            std::string(version));  // first: who may replace the file looks near its beginning
+}
 
 void H5Image::group(const std::string& path) {
   require_memory(size_);
@@ -109,7 +114,7 @@ void H5Image::texts(const std::string& path, std::span<const std::string> values
 void H5Image::attribute(const std::string& path, const std::string& name, const std::string& text) {
   size_ += text.size();
   require_memory(size_);
-  const H5Handle set(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose);
+  const H5Handle set(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), H5Oclose);
   const H5Handle type = text_type(std::max<std::size_t>(text.size(), 1)),
                  space(H5Screate(H5S_SCALAR), H5Sclose);
   const H5Handle made(H5Acreate2(set.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),

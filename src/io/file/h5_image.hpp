@@ -61,7 +61,7 @@ class H5Image {
   /// Texts in UTF-8 of variable length, without a character 0: a long one takes its own room only.
   void texts(const std::string& path, std::span<const std::string> values);
 
-  /// A text that a data set has beside its values.
+  /// A text that a data set, or a group, has beside its values.
   void attribute(const std::string& path, const std::string& name, const std::string& text);
 
   std::string bytes() const;

@@ -127,8 +127,10 @@ PoseDegrees pose_of(const StudyTable& table, const StudyRow& row, const Joint& j
 }
 
 void add_depth(Cells& fields, const Joint& joint, const PoseDegrees& at) {
-  const DepthAnswer answer =
-      answer_depth(joint, {.X_FM = pose_at(joint.coordinates(), at.angles()), .pose = at.angles()});
+  const auto limits = limits_of_poses(joint);
+  const DepthAnswer answer = answer_depth(
+      joint,
+      {.X_FM = pose_at(joint.coordinates(), at.angles()), .pose = at.angles(), .limits = limits.get()});
   const contact::ContactMeasures& measures = answer.measures;
   const auto deepest = deepest_of(std::get<RayDepths>(answer.depths).reliable);
   fields.push_back(answer.in_contact() ? "1" : "0");
@@ -140,6 +142,9 @@ void add_depth(Cells& fields, const Joint& joint, const PoseDegrees& at) {
                                                                measures.fixed_covered_again_mm3)
                                        : "");
   fields.push_back(fmt::format("{}", measures.nearest.distance_mm));
+  const auto& standing = answer.standing;
+  fields.push_back(standing ? std::string(name_of(standing->state)) : "");
+  fields.push_back(standing && standing->nearest ? fmt::format("{}", standing->to_limit_deg()) : "");
 }
 
 Cells hip_fields(const LoadedJoint& loaded, const motion::BearingFinding& bearing, std::string_view notes,

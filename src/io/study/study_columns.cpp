@@ -50,7 +50,12 @@ ColumnList depth_columns() {
       {"depth_covered_again_mm3", "mm^3", number_column,
        "how much of that volume is counted again because a body covers it more than once"},
       {"depth_nearest_distance_mm", "mm", number_column,
-       "smallest distance of the surfaces, 0 where they meet"}};
+       "smallest distance of the surfaces, 0 where they meet"},
+      {"depth_state", "", text_column,
+       "what contact in the pose is, as condyle depth says it: free, at_limit, bearing, impinging, strained, "
+       "contact"},
+      {"depth_to_limit_deg", "deg", number_column,
+       "of one angle alone to the nearest limit; empty where no bone is met"}};
 }
 
 ColumnList hip_columns() {
