@@ -1,7 +1,11 @@
-"""The examples run, and show what the pages say of them; and those that end in a figure what their pictures show."""
+"""The examples run, those of help() too, and show what the pages and their pictures say of them."""
 
+import doctest
+import functools
+import importlib
 import importlib.util
 import os
+import pkgutil
 import re
 import runpy
 import subprocess
@@ -92,3 +96,17 @@ def test_the_knee_is_that_which_was_published(source: Path, tmp_path: Path):
     # Single precision on the publisher's side leaves 2e-5 open: docs/knee.md.
     assert said.startswith("6 frames, 8 numbers each") and float(said.split("at most ")[1].split(" ")[0]) <= 2e-5
     assert (tmp_path / "knee.svg").read_bytes().startswith(b"<?xml")
+
+
+MODULES = ["condyle"] + [f"condyle.{found.name}" for found in pkgutil.iter_modules(condyle.__path__)
+                         if found.name.startswith("_") and not found.name.startswith(("_native", "__"))]
+# Nothing can change a mesh, so that the examples share theirs.
+shared_hip = functools.cache(condyle.sample_hip)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples_of_help(name, monkeypatch):
+    monkeypatch.setattr(condyle, "sample_hip", shared_hip)
+    module = importlib.import_module(name)
+    with np.printoptions(legacy=False):
+        assert doctest.testmod(module, optionflags=doctest.ELLIPSIS).failed == 0

@@ -11,7 +11,6 @@ from common import lifted, refused, soup
 
 import condyle
 
-
 LAYER = condyle.ElasticLayer(12, 0.42, 1.65)
 
 

@@ -262,7 +262,6 @@ def test_a_band_does_not_look_for_lengths_beyond_the_contact_that_ends_a_motion(
 
 GRID = ["--map", "flexion=-60:0:30", "adduction=-20:20:20"]
 
-
 TWO_ENDING = ({"name": "front, long", "fixed": [30, 28, 8], "mobile": [12, -38, 30], "slack_share": 1.05, "ends_at_strain": 0.1, "wrap": BALL},
               {"name": "back", "fixed": [-28, -15, 10], "mobile": [2, 5, 48], "slack_share": 1.1, "ends_at_strain": 0.1})
 

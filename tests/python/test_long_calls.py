@@ -86,7 +86,12 @@ calls = {
     "zones": lambda progress: rom.zones(own, progress=progress),
     "depths": lambda progress: condyle.DepthRange(joint, 1.0).limits(own, progress=progress),
 }
-for name, call in calls.items():
+without_progress = {
+    "limits": lambda _: joint.range_of_motion(own),
+    "hip": lambda _: condyle.sample_hip(triangles=(4_000_000, 4_000_000)),
+    "cartilages": lambda _: condyle.sample_cartilages(triangles=(4_000_000, 4_000_000)),
+}
+for name, call in {**calls, **without_progress}.items():
     seen = []
     def progress(done, total):
         # Sent while the library works, not while this runs: that would be an exception of the callback.
@@ -94,24 +99,14 @@ for name, call in calls.items():
         seen.append((done, total))
         if len(seen) == 1:
             threading.Timer(0.02, os.kill, (os.getpid(), signal.SIGINT)).start()
+    if name in without_progress:
+        seen.append((0, 1))
+        threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
     try:
         call(progress)
         print(name, "came to its end")
     except KeyboardInterrupt:
         print(name, "interrupted" if seen[-1][0] < seen[-1][1] else "at its end")
-
-without_progress = {
-    "limits": lambda: joint.range_of_motion(own),
-    "hip": lambda: condyle.sample_hip(triangles=(4_000_000, 4_000_000)),
-    "cartilages": lambda: condyle.sample_cartilages(triangles=(4_000_000, 4_000_000)),
-}
-for name, call in without_progress.items():
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-    try:
-        call()
-        print(name, "came to its end")
-    except KeyboardInterrupt:
-        print(name, "interrupted")
 """
 
 

@@ -100,20 +100,13 @@ def test_a_soup_read_from_stl_is_joined_with_a_map_from_its_corners(tmp_path):
 
 
 def test_polygons_are_split_where_it_is_asked_for(tmp_path):
-    comb = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
-
-    def write(height):
-        path = tmp_path / "comb.obj"
-        path.write_text("".join(f"v {x} {y} {height * (-1) ** i}\n" for i, (x, y) in enumerate(comb)) + "f 1 2 3 4 5 6 7 8\n")
-        return path
-
-    refused(lambda: condyle.read_mesh(write(0)), "only triangles", condyle.FileError)
-    flat = condyle.read_mesh(write(0), polygons="split")
-    assert len(flat.triangles) == 6 and list(flat.processing) == ["split 1 polygon into triangles"]
-    refused(lambda: condyle.read_mesh(write(0.25), polygons="split"), "twisted", condyle.FileError)
-    twisted = condyle.read_mesh(write(0.25), polygons="guess")
+    comb, path = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)], tmp_path / "comb.obj"
+    path.write_text("".join(f"v {x} {y} {0.25 * (-1) ** i}\n" for i, (x, y) in enumerate(comb)) + "f 1 2 3 4 5 6 7 8\n")
+    for polygons, words, kind in (("refuse", "only triangles", condyle.FileError), ("split", "twisted", condyle.FileError),
+                                  ("fan", "polygons", condyle.UsageError)):
+        refused(lambda: condyle.read_mesh(path, polygons=polygons), words, kind)
+    twisted = condyle.read_mesh(path, polygons="guess")
     assert len(twisted.triangles) == 6 and "by a guess: their corners are up to 0.25 off one plane" in twisted.processing[0]
-    refused(lambda: condyle.read_mesh(write(0), polygons="fan"), "polygons")
 
 
 def test_arrays_cannot_be_written_and_outlive_their_mesh():

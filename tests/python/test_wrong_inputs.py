@@ -14,7 +14,6 @@ import condyle
 
 TETRAHEDRON = condyle.TriMesh(V - 0.1, T)
 
-
 CASES = {
     "flat vertices": (lambda hip: condyle.TriMesh(V.ravel(), T), r"\(12,\)"),
     "two columns": (lambda hip: condyle.TriMesh(V[:, :2], T), r"\(4, 2\)"),

@@ -13,7 +13,6 @@ from test_plot_outliers import among, study_of
 import condyle.plot as figures
 from condyle.plot.limit_bars import ENDS
 
-
 module = sys.modules["condyle.plot.contact_sheet"]  # its function has the same name
 
 

@@ -16,7 +16,6 @@ import condyle.plot as figures
 from condyle.plot.__main__ import main
 from condyle.plot.folder import drawings
 
-
 MAP = {"vary": "internal_rotation", "vary_opposite": "external_rotation", "start_deg": 0,
        "columns": {"angle": "flexion", "opposite": "extension", "first_deg": 0, "last_deg": 20, "step_deg": 10, "count": 3},
        "rows": {"angle": "adduction", "opposite": "abduction", "first_deg": -5, "last_deg": 5, "step_deg": 10, "count": 2}}

@@ -10,7 +10,6 @@ from drawn import are_apart, by_gid
 import condyle.plot as figures
 from condyle.plot.folder import _side_by_side
 
-
 TABLE = {
     "time_s": [0.0, 1.0, 2.0],
     "flexion_deg": [0.0, 20.0, 40.0],
