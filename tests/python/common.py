@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 import threading
+import warnings
 import zlib
 from pathlib import Path
 from typing import Any
@@ -51,6 +52,13 @@ def refused(act: Any, words: str = "", kind: type[Exception] = condyle.UsageErro
     return line
 
 
+def warnings_of(act: Any) -> list[warnings.WarningMessage]:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        act()
+    return [each for each in caught if issubclass(each.category, condyle.JointWarning)]
+
+
 def box(low: Any, high: Any) -> condyle.TriMesh:
     corners = np.array([[(low, high)[i >> k & 1][k] for k in range(3)] for i in range(8)], float)
     quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
@@ -83,7 +91,7 @@ def lifted(y_mm: float) -> np.ndarray:
 
 
 def joint_file(folder: Path, more: str = "", kind: str = 'kind = "ball"', fixed: Any = None, mobile: Any = None, bodies: str = "") -> Path:
-    """Of the sample hip, or of other meshes; BODIES stand for its tables of bodies."""
+    """A right joint of two meshes, or of those that BODIES names."""
     for name, mesh in (("fixed", fixed), ("mobile", mobile)):
         if mesh is not None:
             condyle.write_mesh(folder / f"{name}.ply", mesh)

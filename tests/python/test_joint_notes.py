@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from common import at_once, changed, json_of_command, refused, run_command
+from common import at_once, changed, json_of_command, refused, run_command, warnings_of
 
 import condyle
 
@@ -15,13 +15,6 @@ import condyle
 def left(coarse_bones):
     """A right hip that is said to be a left one."""
     return condyle.Joint(*coarse_bones, side="left", name="sample")
-
-
-def warnings_of(act):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        act()
-    return [each for each in caught if issubclass(each.category, condyle.JointWarning)]
 
 
 AT_ONE_POSE = ("penetration", "pairs", "in_contact", "gaps", "depths", "contact_measures", "normal_contact")

@@ -146,8 +146,8 @@ def test_names_that_a_spreadsheet_would_compute_come_back_as_they_were(tmp_path:
 
 def test_a_load_is_that_of_elastic_contact(table: Path, hip: condyle.Joint, tmp_path: Path):
     layer = condyle.ElasticLayer(12, 0.42, 1.5)
-    study = condyle.run_study(table, tmp_path / "a", motions=["flexion"], load=condyle.StudyLoad("flexion=20", (0, 1500, -200), layer, "mobile",
-                                                                                                 [(0, 1, 0)], "face_centre", 15, "logarithmic"))
+    load = condyle.StudyLoad("flexion=20", (0, 1500, -200), layer, "mobile", [(0, 1, 0)], "face_centre", 15, "logarithmic")
+    study = condyle.run_study(table, tmp_path / "a", motions=["flexion"], load=load)
     contact = condyle.ElasticContact(hip.fixed, hip.mobile, fixed_layer=layer, mobile_layer=layer, casting="mobile",
                                      rule="face_centre", reach_mm=15, law="logarithmic")
     balanced = contact.balance((0, 1500, -200), start=hip.pose(flexion_deg=20), free_directions=[(0, 1, 0)])

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import re
 import shlex
-import warnings
 from pathlib import Path
 
 import pytest
 from wrong_setups import ERRORS, SETUPS, Scene, Setup
-from common import refused, run_command
+from common import refused, run_command, warnings_of
 
 import condyle
 
@@ -46,17 +45,13 @@ def require_command_says(setup: Setup, folder: Path) -> None:
 def require_module_says(setup: Setup, scene: Scene) -> None:
     if setup.ask is None:
         return
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        if setup.ends == 0:
-            setup.ask(scene)
-        else:
-            line = refused(lambda: setup.ask(scene), kind=ERRORS[setup.ends])
-            assert (setup.says_in_python or setup.says) in line
-            assert not setup.untrue or setup.untrue not in line
-            require_one_line(line)
-            return
-    said = [str(each.message) for each in caught if issubclass(each.category, condyle.JointWarning)]
+    if setup.ends != 0:
+        line = refused(lambda: setup.ask(scene), kind=ERRORS[setup.ends])
+        assert (setup.says_in_python or setup.says) in line
+        assert not setup.untrue or setup.untrue not in line
+        require_one_line(line)
+        return
+    said = [str(each.message) for each in warnings_of(lambda: setup.ask(scene))]
     assert any(setup.says in text for text in said), said
     for text in said:
         require_one_line(text)

@@ -187,6 +187,7 @@ SETUPS: dict[str, Setup] = {
     "LPS for joint axes": Setup(0, "axes_not_upright", axes_named("LPS")),
     "metres": Setup(0, "unlikely_size", line("units", 'units = "m"')),
     "centre 5 mm off": Setup(0, "centre_off_head", centre("5.0")),
+    "centre 24 mm off": Setup(0, "centre_off_head", centre("24.0")),
     "centre 30 mm off": Setup(0, "centre_off_head", centre("30.0")),
     "swapped": Setup(0, "swapped_bodies", changed(("hip_bone.ply", "X"), ("femur.ply", "hip_bone.ply"), ("X", "femur.ply"))),
     "mirrored and flipped": Setup(0, "wrong_side", both(mirror=True, flip=True)),

@@ -99,14 +99,10 @@ def boxes(figure: plt.Figure) -> "list[tuple[str, Bbox]]":
 
 
 def is_tidy(pages: "list[plt.Figure]") -> bool:
-    """No text runs into another or over the edge, none is small. Boxes have the lines' height, of which letters with descenders leave a part free."""
-    return all(map(_is_tidy, pages))
-
-
-def _is_tidy(figure: plt.Figure) -> bool:
-    found = boxes(figure)
-    assert min(text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()) >= 7
-    assert are_tidy(found, Bbox([[10, 10], [585, 832]]))
+    """No text runs into another or over the edge, none is small."""
+    for figure in pages:
+        assert min(text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()) >= 7
+        assert are_tidy(boxes(figure), Bbox([[10, 10], [585, 832]]))
     return True
 
 
