@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "condyle/condyle.h"
 #include "condyle/mesh.hpp"
 
 /// Objects of the C interface that destroy themselves, and C++'s arguments as it takes them.
+
+#define ASSERT_OK(call) ASSERT_EQ(call, CONDYLE_OK) << condyle_last_error()
+#define EXPECT_OK(call) EXPECT_EQ(call, CONDYLE_OK) << condyle_last_error()
 
 namespace condyle::test {
 
@@ -44,6 +48,13 @@ Object made(condyle_status (*create)(Arguments...), auto... arguments) {
   return Object(object);
 }
 
+inline void expect_refused(condyle_status status, const std::string& line,
+                           condyle_status expected = CONDYLE_BAD_ARGUMENT) {
+  EXPECT_EQ(status, expected);
+  EXPECT_NE(line, "");
+  EXPECT_EQ(condyle_last_error(), line);
+}
+
 inline std::vector<double> c_points(const Points& points) {
   std::vector<double> xyz;
   for (std::size_t v = 0; v < points.size(); ++v)
@@ -57,6 +68,21 @@ inline HeldMesh c_mesh(const TriMesh& mesh) {
                         mesh.triangles.empty() ? nullptr : mesh.triangles.front().data(),
                         mesh.triangles.size());
 }
+
+inline HeldContact c_contact(const TriMesh& fixed, const TriMesh& mobile) {
+  return made<HeldContact>(condyle_joint_contact_create, c_mesh(fixed).get(), c_mesh(mobile).get());
+}
+
+/// Options with a layer of one thickness on the fixed body.
+inline HeldOptions c_layer(double E_mpa, double nu, double thickness_mm,
+                           condyle_casting casting = CONDYLE_CAST_BOTH) {
+  HeldOptions options = made<HeldOptions>(condyle_elastic_options_create);
+  EXPECT_OK(condyle_elastic_options_set_layer(options.get(), CONDYLE_FIXED, E_mpa, nu, &thickness_mm, 1));
+  EXPECT_OK(condyle_elastic_options_set_casting(options.get(), casting));
+  return options;
+}
+
+inline constexpr condyle_pose c_identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
 
 inline condyle_pose c_pose(const Pose& X) {
   condyle_pose out;

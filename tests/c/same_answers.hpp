@@ -28,6 +28,25 @@ inline Pose rotated(double degrees, const Vec3& axis, const Vec3& shift = Vec3::
   return X;
 }
 
+/// The options of C++ as C takes them.
+inline HeldOptions c_options(const contact::ElasticContactOptions& given) {
+  HeldOptions options = made<HeldOptions>(condyle_elastic_options_create);
+  EXPECT_OK(condyle_elastic_options_set_casting(options.get(), static_cast<int>(given.casting)));
+  EXPECT_OK(condyle_elastic_options_set_law(options.get(), static_cast<int>(given.law)));
+  EXPECT_OK(condyle_elastic_options_set_rays(options.get(), static_cast<int>(given.rays.rule),
+                                             given.rays.reach_mm));
+  for (const auto& [body, layer] :
+       {std::pair{CONDYLE_FIXED, &given.fixed}, std::pair{CONDYLE_MOBILE, &given.mobile}}) {
+    if (!*layer) continue;
+    const double* const one = std::get_if<double>(&(*layer)->thickness_mm);
+    const std::vector<double> each =
+        one ? std::vector{*one} : std::get<std::vector<double>>((*layer)->thickness_mm);
+    EXPECT_OK(condyle_elastic_options_set_layer(options.get(), body, (*layer)->youngs_modulus_mpa,
+                                                (*layer)->poisson_ratio, each.data(), each.size()));
+  }
+  return options;
+}
+
 /// Apart; and flexed, turned and displaced into contact.
 inline std::vector<Pose> poses() {
   return {Pose::Identity(), rotated(125, {0, 0, 1}), rotated(140, {0.2, 0.1, 1}),
@@ -64,18 +83,18 @@ inline void expect_same(const std::optional<radial::Penetrations>& cpp, const co
 /// Results of C against those of C++; how many vertices are inside.
 inline std::size_t expect_same(const contact::Contact& cpp, const condyle_contact_results* c) {
   condyle_vertices_inside mobile, fixed;
-  EXPECT_EQ(condyle_contact_results_vertices(c, CONDYLE_MOBILE, &mobile), CONDYLE_OK);
-  EXPECT_EQ(condyle_contact_results_vertices(c, CONDYLE_FIXED, &fixed), CONDYLE_OK);
+  EXPECT_OK(condyle_contact_results_vertices(c, CONDYLE_MOBILE, &mobile));
+  EXPECT_OK(condyle_contact_results_vertices(c, CONDYLE_FIXED, &fixed));
   expect_same(cpp.mobile_in_fixed, mobile);
   expect_same(cpp.fixed_in_mobile, fixed);
   const std::uint32_t* pairs;
   std::size_t count;
-  EXPECT_EQ(condyle_contact_results_pairs(c, &pairs, &count), CONDYLE_OK);
+  EXPECT_OK(condyle_contact_results_pairs(c, &pairs, &count));
   EXPECT_EQ(count, cpp.pairs.size());
   for (std::size_t i = 0; i < std::min(count, cpp.pairs.size()); ++i)
     EXPECT_EQ((contact::TrianglePair{pairs[2 * i], pairs[2 * i + 1]}), cpp.pairs[i]);
   int in_contact = -1;
-  EXPECT_EQ(condyle_contact_results_in_contact(c, &in_contact), CONDYLE_OK);
+  EXPECT_OK(condyle_contact_results_in_contact(c, &in_contact));
   EXPECT_EQ(in_contact, cpp.in_contact ? 1 : 0);
   return mobile.count + fixed.count;
 }

@@ -38,13 +38,13 @@ TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
   std::size_t most_inside = 0, free_poses = 0;
   for (const Pose& X : poses()) {
     const condyle_pose pose = c_pose(X);
-    ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+    ASSERT_OK(condyle_joint_contact_at(c.get(), &pose, results.get()));
     const contact::Contact expected = cpp.at(X);
     most_inside = std::max(most_inside, expect_same(expected, results.get()));
     free_poses += !expected.in_contact;
     const TouchAnswer touch = answer_touch(cpp, {.X_FM = X, .measures = TouchMeasures::all});
     condyle_touch in_c;
-    ASSERT_EQ(condyle_joint_contact_touch(c.get(), &pose, 1, &in_c), CONDYLE_OK) << condyle_last_error();
+    ASSERT_OK(condyle_joint_contact_touch(c.get(), &pose, 1, &in_c));
     EXPECT_EQ(in_c.in_contact, touch.in_contact ? 1 : 0);
     EXPECT_EQ(in_c.intersecting_pairs, touch.pairs.size());
     EXPECT_EQ(in_c.deepest_of, !touch.deepest                         ? -1
@@ -65,7 +65,7 @@ TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
     }
     EXPECT_EQ(std::isnan(in_c.volume_mm3), !touch.in_contact);
     int in_contact = -1;
-    ASSERT_EQ(condyle_joint_contact_in_contact(c.get(), &pose, &in_contact), CONDYLE_OK);
+    ASSERT_OK(condyle_joint_contact_in_contact(c.get(), &pose, &in_contact));
     EXPECT_EQ(in_contact, expected.in_contact ? 1 : 0);
   }
   EXPECT_GT(most_inside, 10u);
@@ -74,15 +74,13 @@ TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
 
 TEST(CInterface, GivesTheRadialGapsOfCpp) {
   const contact::JointContact cpp(hip().hip_bone, hip().femur);
-  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
-                                   c_mesh(hip().femur).get());
+  const auto c = c_contact(hip().hip_bone, hip().femur);
   std::vector<double> mobile(hip().femur.vertices.size()), fixed(hip().hip_bone.vertices.size());
   for (const Pose& X : poses()) {
     const condyle_pose pose = c_pose(X);
-    ASSERT_EQ(condyle_joint_contact_radial_gaps(c.get(), &pose, CONDYLE_MOBILE, mobile.data(), mobile.size()),
-              CONDYLE_OK);
-    ASSERT_EQ(condyle_joint_contact_radial_gaps(c.get(), &pose, CONDYLE_FIXED, fixed.data(), fixed.size()),
-              CONDYLE_OK);
+    ASSERT_OK(
+        condyle_joint_contact_radial_gaps(c.get(), &pose, CONDYLE_MOBILE, mobile.data(), mobile.size()));
+    ASSERT_OK(condyle_joint_contact_radial_gaps(c.get(), &pose, CONDYLE_FIXED, fixed.data(), fixed.size()));
     const contact::RadialContact expected = cpp.radial(X);
     EXPECT_EQ(mobile, expected.mobile_in_fixed->radial_gap_mm);
     EXPECT_EQ(fixed, expected.fixed_in_mobile->radial_gap_mm);
@@ -92,14 +90,14 @@ TEST(CInterface, GivesTheRadialGapsOfCpp) {
 TEST(CInterface, SaysThatAnOpenBodyHasNoInside) {
   const TriMesh sheet = plane(2, 4), ball = sphere({0, 0.3, 0.1}, 1, 2);
   const contact::JointContact cpp(sheet, ball);
-  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(sheet).get(), c_mesh(ball).get());
+  const auto c = c_contact(sheet, ball);
   const auto results = made<HeldResults>(condyle_contact_results_create);
   // Off the vertices and the sheet, which hold the centre.
   const Pose X = rotated(10, {1, 0.3, 2}, {0.1, 0.2, 0});
   const condyle_pose pose = c_pose(X);
   try {
     const contact::Contact expected = cpp.at(X);
-    ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+    ASSERT_OK(condyle_joint_contact_at(c.get(), &pose, results.get()));
     EXPECT_FALSE(expected.mobile_in_fixed);
     EXPECT_GT(expect_same(expected, results.get()), 0u);
   } catch (const std::exception& error) {
@@ -116,9 +114,9 @@ TEST(CInterface, CastsNormalsAsCppDoes) {
     double area = 0;
     for (const Pose& X : poses()) {
       const condyle_pose pose = c_pose(X);
-      ASSERT_EQ(condyle_normal_depth_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+      ASSERT_OK(condyle_normal_depth_at(c.get(), &pose, results.get()));
       condyle_surface_contact surface;
-      ASSERT_EQ(condyle_normal_results_surface(results.get(), &surface), CONDYLE_OK);
+      ASSERT_OK(condyle_normal_results_surface(results.get(), &surface));
       expect_same(cpp.at(X), surface);
       area += surface.area_mm2;
     }
@@ -134,28 +132,17 @@ TEST(CInterface, PressesLayersAsCppDoes) {
     const contact::ElasticContactOptions options{
         casting, {contact::FaceRule::cut_faces, 15}, contact::PressureLaw::logarithmic, fixed, mobile};
     const contact::ElasticContact cpp(hip().hip_bone, hip().femur, options);
-    const auto given = made<HeldOptions>(condyle_elastic_options_create);
-    const double thickness = 25;
-    for (const condyle_status status :
-         {condyle_elastic_options_set_casting(given.get(), static_cast<int>(casting)),
-          condyle_elastic_options_set_law(given.get(), CONDYLE_LOGARITHMIC),
-          condyle_elastic_options_set_rays(given.get(), CONDYLE_CUT_FACES, 15),
-          condyle_elastic_options_set_layer(given.get(), CONDYLE_FIXED, 12, 0.45, &thickness, 1),
-          condyle_elastic_options_set_layer(given.get(), CONDYLE_MOBILE, 8, 0.4, of_vertices.data(),
-                                            of_vertices.size())})
-      ASSERT_EQ(status, CONDYLE_OK) << condyle_last_error();
     const auto c = made<HeldElastic>(condyle_elastic_contact_create, c_mesh(hip().hip_bone).get(),
-                                     c_mesh(hip().femur).get(), given.get());
+                                     c_mesh(hip().femur).get(), c_options(options).get());
     const auto results = made<HeldElasticResults>(condyle_elastic_results_create);
     double stored = 0;
     for (const Pose& X : poses()) {
       const condyle_pose pose = c_pose(X);
-      ASSERT_EQ(condyle_elastic_contact_at(c.get(), &pose, results.get()), CONDYLE_OK)
-          << condyle_last_error();
+      ASSERT_OK(condyle_elastic_contact_at(c.get(), &pose, results.get()));
       const contact::ElasticContactResults expected = cpp.at(X);
       condyle_wrench on_mobile;
       double energy = -1;
-      ASSERT_EQ(condyle_elastic_results_load(results.get(), &on_mobile, &energy), CONDYLE_OK);
+      ASSERT_OK(condyle_elastic_results_load(results.get(), &on_mobile, &energy));
       EXPECT_EQ(vector(on_mobile.force_n), expected.on_mobile.force_n);
       EXPECT_EQ(vector(on_mobile.moment_nmm), expected.on_mobile.moment_nmm);
       EXPECT_EQ(energy, expected.energy_nmm);
@@ -163,7 +150,7 @@ TEST(CInterface, PressesLayersAsCppDoes) {
       for (const auto& [body, cast] :
            {std::pair{CONDYLE_FIXED, &expected.fixed}, std::pair{CONDYLE_MOBILE, &expected.mobile}}) {
         condyle_surface_contact surface;
-        ASSERT_EQ(condyle_elastic_results_surface(results.get(), body, &surface), CONDYLE_OK);
+        ASSERT_OK(condyle_elastic_results_surface(results.get(), body, &surface));
         if (*cast)
           expect_same(**cast, surface);
         else
@@ -183,8 +170,7 @@ TEST(CInterface, TurnsAboutAnAxisUpToTheContactOfCpp) {
   for (const Pose& X : poses()) {
     for (const double range : {5.0, 360.0}) {
       const condyle_pose pose = c_pose(X);
-      ASSERT_EQ(condyle_first_contact_limits(c.get(), &pose, -range, range, &negative, &positive), CONDYLE_OK)
-          << condyle_last_error();
+      ASSERT_OK(condyle_first_contact_limits(c.get(), &pose, -range, range, &negative, &positive));
       const motion::RotationLimits expected = cpp.limits(X, {Angle::degrees(-range), Angle::degrees(range)});
       expect_same(expected.negative, negative);
       expect_same(expected.positive, positive);
@@ -195,24 +181,20 @@ TEST(CInterface, TurnsAboutAnAxisUpToTheContactOfCpp) {
 std::vector<condyle_free_interval> intervals_of(const HeldFree& results) {
   const condyle_free_interval* first = nullptr;
   std::size_t count = 0;
-  EXPECT_EQ(condyle_free_results_intervals(results.get(), &first, &count), CONDYLE_OK)
-      << condyle_last_error();
+  EXPECT_OK(condyle_free_results_intervals(results.get(), &first, &count));
   return array(first, count);
 }
 
 TEST(CInterface, FindsTheFreeTurnsOfCpp) {
-  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
-                                   c_mesh(hip().femur).get());
+  const auto c = c_contact(hip().hip_bone, hip().femur);
   const auto results = made<HeldFree>(condyle_free_results_create);
   const Vec3 point(1, 0.5, 0), direction(0.1, 0.2, 1);
   condyle_rotation_limit negative, positive;
   std::size_t free_at_start = 0, in_contact = 0;
   for (const Pose& X : poses()) {
     const condyle_pose pose = c_pose(X);
-    ASSERT_EQ(condyle_joint_contact_turn(c.get(), &pose, point.data(), direction.data(), &negative, &positive,
-                                         results.get()),
-              CONDYLE_OK)
-        << condyle_last_error();
+    ASSERT_OK(condyle_joint_contact_turn(c.get(), &pose, point.data(), direction.data(), &negative, &positive,
+                                         results.get()));
     const motion::FreeAngles expected = answer_turn(hip().hip_bone, hip().femur, {direction, point, X}).free;
     expect_same(expected.from_start.negative, negative);
     expect_same(expected.from_start.positive, positive);
@@ -241,9 +223,7 @@ TEST(CInterface, SlidesABoxBetweenTwoWallsFromOneToTheOther) {
   condyle_slide_limit negative, positive;
   const auto slide_from = [&](const Vec3& place) {
     condyle_pose pose = c_pose(rotated(0, {0, 0, 1}, place));
-    EXPECT_EQ(condyle_joint_contact_slide(c.get(), &pose, direction, &negative, &positive, results.get()),
-              CONDYLE_OK)
-        << condyle_last_error();
+    EXPECT_OK(condyle_joint_contact_slide(c.get(), &pose, direction, &negative, &positive, results.get()));
   };
   slide_from({0, 0, 0});
   EXPECT_NEAR(negative.moved_mm, -6, 1e-12);
@@ -276,8 +256,7 @@ TEST(CInterface, SlidesABoxBetweenTwoWallsFromOneToTheOther) {
 }
 
 TEST(CInterface, AnswersManyThreadsOfOneObjectAsOne) {
-  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
-                                   c_mesh(hip().femur).get());
+  const auto c = c_contact(hip().hip_bone, hip().femur);
   const contact::JointContact cpp(hip().hip_bone, hip().femur);
   std::vector<contact::Contact> expected;
   for (const Pose& X : poses()) expected.push_back(cpp.at(X));
@@ -288,7 +267,7 @@ TEST(CInterface, AnswersManyThreadsOfOneObjectAsOne) {
       for (std::size_t i = 0; i < 2 * expected.size(); ++i) {
         const std::size_t n = (first + i) % expected.size();
         const condyle_pose pose = c_pose(poses()[n]);
-        ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK);
+        ASSERT_OK(condyle_joint_contact_at(c.get(), &pose, results.get()));
         expect_same(expected[n], results.get());
       }
     });

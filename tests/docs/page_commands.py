@@ -36,6 +36,8 @@ from pathlib import Path
 PROGRAMS = ("condyle ", "python3 -m condyle", "python3 $CONDYLE_DATA/", "make ")
 SYNOPSIS = re.compile(r"\[|…|\b(JOINT|FILE|MESH|DIR|POSE|OUT)\b")
 MARKER = re.compile(r"<!-- (run|exit|prints|leaves|says|same|append): (.*?) -->")
+#: What holds the answer of the last command, if that was run.
+HELD = ("text", "prints", "leaves", "same", "says")
 OPTION = re.compile(r"(?<![\w-])--[a-z](?:[a-z-]*[a-z])?\b(?!-)")
 #: Their options are their own, on a line or in code that begins with one of these words.
 OTHER_PROGRAMS = ("cmake", "ctest", "snakemake", "sbatch", "pip", "pkg-config", "git", "node", "scripts/", "build/",
@@ -137,6 +139,8 @@ class Page:
         page = self.path.read_text(encoding="utf-8")
         self.needs_data = "$CONDYLE_DATA" in page
         for kind, text, line in parts_of(page):
+            if kind in HELD and self.printed is None:
+                continue
             try:
                 getattr(self, f"on_{kind}")(text, line)
             except Wrong as error:
@@ -160,8 +164,7 @@ class Page:
 
     def on_inline(self, code: str, line: int) -> None:
         words = code.split()
-        names_a_file = re.search(r"[\w}]/|\.(toml|csv|ply|html)\b| --out ", code) or any((self.folder / each).is_dir()
-                                                                                       for each in words[3:])
+        names_a_file = re.search(r"[\w}]/|\.(toml|csv|ply|html)\b| --out ", code) or any((self.folder / each).is_dir() for each in words[3:])
         if code.startswith(PROGRAMS[:2]) and not SYNOPSIS.search(code) and names_a_file:
             is_run, self.next_is_run = self.next_is_run, True
             self.printed_by_block = ""
@@ -175,10 +178,7 @@ class Page:
             self.options(code, command, line)
 
     def on_text(self, block: str, line: int) -> None:
-        if self.printed is None:
-            return
-        pattern = "".join(r"(?:.*\n)*?" if shown.strip() == "…" else re.escape(shown.rstrip()) + r"[ \t]*\n"
-                          for shown in block.splitlines())
+        pattern = "".join(r"(?:.*\n)*?" if shown.strip() == "…" else re.escape(shown.rstrip()) + r"[ \t]*\n" for shown in block.splitlines())
         if not re.fullmatch(pattern, self.printed):
             raise self.wrong(line, f"this is not what the command prints:\n{self.printed}")
         self.held += 1
@@ -202,23 +202,17 @@ class Page:
         self.next_exit = int(text)
 
     def on_prints(self, text: str, line: int) -> None:
-        if self.printed is None:
-            return
         if " ".join(text.split()) not in " ".join(self.printed_by_block.split()):
             raise self.wrong(line, f"'{text}' is not in what the commands print:\n{self.printed_by_block}")
         self.held += 1
 
     def on_leaves(self, text: str, line: int) -> None:
-        if self.printed is None:
-            return
         for name in text.split():
             if not (self.folder / name).is_file() or (self.folder / name).stat().st_size == 0:
                 raise self.wrong(line, f"the commands leave no {name}")
             self.held += 1
 
     def on_same(self, text: str, line: int) -> None:
-        if self.printed is None:
-            return
         one, other, *names = text.split()
         for name in names:
             if (self.folder / one / name).read_bytes() != (self.folder / other / name).read_bytes():
@@ -226,8 +220,6 @@ class Page:
             self.held += 1
 
     def on_says(self, text: str, line: int) -> None:
-        if self.printed is None:
-            return
         name, keys, expected, tolerance = re.fullmatch(r"(\S+) (\S+) = (\S+)(?: \+- (\S+))?", text).groups()
         value = json.loads((self.folder / name).read_text())
         for key in keys.split("."):

@@ -3,11 +3,11 @@
 import functools
 import os
 import shutil
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from common import run_command
 
 import condyle
 
@@ -36,24 +36,18 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @pytest.fixture(scope="session")
-def command() -> str:
-    """The command line, which has the same answers."""
-    return os.environ.get("CONDYLE_COMMAND", "condyle")
-
-
-@pytest.fixture(scope="session")
 def source() -> Path:
     return Path(os.environ.get("CONDYLE_SOURCE", Path(__file__).parents[2]))
 
 
 @pytest.fixture(scope="session")
-def sampled(command: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+def sampled(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     """sampled(folder, words...) has in a folder what `condyle sample WORDS` makes, once for all tests that ask for the same."""
 
     @functools.cache
     def made(*words: str) -> Path:
         folder = tmp_path_factory.mktemp("sample")
-        subprocess.run([command, "sample", *words, "--out", folder], check=True, capture_output=True)
+        run_command("sample", *words, "--out", folder)
         return folder
 
     return lambda folder, *words: shutil.copytree(made(*words), folder, dirs_exist_ok=True)
@@ -74,6 +68,11 @@ def coarse_hip_file(sampled: Callable[..., Path], tmp_path_factory: pytest.TempP
 def coarse_bones() -> condyle.SampleHip:
     """Nothing can change a mesh."""
     return condyle.sample_hip(scenario=1)
+
+
+@pytest.fixture(scope="session")
+def default_bones() -> condyle.SampleHip:
+    return condyle.sample_hip()
 
 
 @pytest.fixture(scope="session")

@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+from common import refused
 
 import condyle
 from condyle import BrushStroke
@@ -16,7 +17,7 @@ MOTION = "internal_rotation_at_90_flexion"
 @pytest.fixture(scope="module")
 def cam():
     bones = condyle.sample_hip(alpha_angle_deg=70)
-    return condyle.Joint(bones.hip_bone, bones.femur)
+    return condyle.Joint(*bones)
 
 
 def there(joint, body="mobile"):
@@ -76,11 +77,7 @@ def test_results_are_kept_by_pickle(cam):
 
 @pytest.mark.parametrize("strokes, said", [
     ([BrushStroke(10**6)], "along: "), ([BrushStroke([])], "brush: a stroke needs a vertex that it passes over"),
-    ([BrushStroke(0, radius_mm=0)], "brush: its radius must be above 0 and at most 30 mm"),
-    ([BrushStroke(0, depth_mm=21)], "brush: its depth must be above 0 and at most 20 mm"),
     ([BrushStroke(0, action="push")], "action: "), ([(0, 5, 1)], "strokes: a BrushStroke is needed, not tuple"),
 ])
 def test_what_is_no_stroke_is_refused_in_one_line(cam, strokes, said):
-    with pytest.raises(condyle.UsageError) as refused:
-        cam.brushed(strokes)
-    assert str(refused.value).startswith(said) and "\n" not in str(refused.value)
+    assert refused(lambda: cam.brushed(strokes)).startswith(said)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from common import refused
 
 import condyle
 import condyle.plot
@@ -16,25 +17,20 @@ def rom(hip: condyle.Joint) -> condyle.RangeOfMotion:
 
 
 NAMES = {
-    "a limit": (lambda hip, rom: rom["flexoin"],
-                "limit: no 'flexoin': did you mean 'flexion'? there are flexion, fadir"),
-    "a motion": (lambda hip, rom: rom.limit("flexoin"),
-                 "motion: no 'flexoin': did you mean 'flexion'? there are flexion, "),
-    "an angle of a pose": (lambda hip, rom: hip.pose(flexoin_deg=3),
-                           "pose: no 'flexoin_deg': did you mean 'flexion_deg'? there are flexion_deg, "),
+    "a limit": (lambda hip, rom: rom["flexoin"], "limit: no 'flexoin': did you mean 'flexion'? there are flexion, fadir"),
+    "a motion": (lambda hip, rom: rom.limit("flexoin"), "motion: no 'flexoin': did you mean 'flexion'? there are flexion, "),
+    "an angle of a pose": (lambda hip, rom: hip.pose(flexoin_deg=3), "pose: no 'flexoin_deg': did you mean 'flexion_deg'? there are flexion_deg, "),
     "an angle about which": (lambda hip, rom: hip.penetration(np.eye(4), "tangential", about="x"),
                              "about: no 'x'; there are flexion, adduction, internal_rotation"),
     "an angle of a start": (lambda hip, rom: rom.free_angles("flexion", {"adducton": 3}),
                             "start_deg: no 'adducton': did you mean 'adduction'? there are flexion, "),
     "a part": (lambda hip, rom: hip.part("labrum"), "mobile part: no 'labrum'; there are none"),
-    "a finding": (lambda hip, rom: condyle.inspect(hip.fixed).findings["holes"],
-                  "finding: no 'holes'; there are boundary_edges, boundary_loops, "),
+    "a finding": (lambda hip, rom: condyle.inspect(hip.fixed).findings["holes"], "finding: no 'holes'; there are boundary_edges, boundary_loops, "),
     "an angle of a limit": (lambda hip, rom: rom["flexion"].at_limit_deg["flexoin"],
                             "angle: no 'flexoin': did you mean 'flexion'? there are flexion, adduction, "),
     "a column of a motion": (lambda hip, rom: condyle.MotionTable({"time": np.zeros(1)}, None, ())["tmie"],
                              "column: no 'tmie': did you mean 'time'? there are time"),
-    "a column of a study": (lambda hip, rom: condyle.StudyTable({"id": np.zeros(1)}, {}, {})["limit_deg"],
-                            "column: no 'limit_deg'; there are id"),
+    "a column of a study": (lambda hip, rom: condyle.StudyTable({"id": np.zeros(1)}, {}, {})["limit_deg"], "column: no 'limit_deg'; there are id"),
     "a measure": (lambda hip, rom: condyle.sample_hip(haed_radius_mm=24),
                   "measure of the hip: no 'haed_radius_mm': did you mean 'head_radius_mm'? there are head_radius_mm, "),
     "a name that is no text": (lambda hip, rom: rom[3.0], "limit: no float; there are flexion, fadir"),
@@ -54,14 +50,11 @@ def test_a_pose_beyond_the_last_is_an_index_error(hip, coarse_bones):
     many = hip.penetration(hip.pose(flexion_deg=[0, 140]))
     assert len(many[-1].mobile) == 41
     for n in (2, -3):
-        with pytest.raises(IndexError, match=f"pose: there are 2, counted from 0, and no {n}"):
-            many[n]
+        refused(lambda: many[n], f"pose: there are 2, counted from 0, and no {n}", IndexError)
     arcs = condyle.RingTable(coarse_bones.femur, [0, 0, 0], [0, 0, 1]).occupied_arcs([[1, 0, 0]])
     for n in (2, -3):
-        with pytest.raises(IndexError, match=f"limit: there are 2, counted from 0, and no {n}"):
-            hip.range_of_motion(["flexion", "fadir"])[n]
-    with pytest.raises(condyle.OutOfRangeError, match="point: there are 1, counted from 0, and no 1"):
-        arcs.of(1)
+        refused(lambda: hip.range_of_motion(["flexion", "fadir"])[n], f"limit: there are 2, counted from 0, and no {n}", IndexError)
+    refused(lambda: arcs.of(1), "point: there are 1, counted from 0, and no 1", condyle.OutOfRangeError)
 
 
 def test_a_column_that_is_not_there_is_none_of_a_mapping():

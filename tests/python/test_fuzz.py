@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("hypothesis")
+from common import CORNERS, FACES  # noqa: E402
 from hypothesis import HealthCheck, given, settings  # noqa: E402
 from hypothesis import strategies as st  # noqa: E402
 from hypothesis.extra import numpy as hnp  # noqa: E402
@@ -17,15 +18,12 @@ OURS = condyle.FileError, condyle.MeshError, condyle.UsageError
 fuzz = settings(max_examples=EXAMPLES, deadline=None, database=None,
                 derandomize="CONDYLE_FUZZ_EXAMPLES" not in os.environ, suppress_health_check=list(HealthCheck))
 
-numbers = st.one_of(st.floats(allow_nan=True), st.integers(-2**70, 2**70),
-                    st.sampled_from([0, 1, -1, 90, 1e-308, 1e308]))
+numbers = st.one_of(st.floats(allow_nan=True), st.integers(-2**70, 2**70), st.sampled_from([0, 1, -1, 90, 1e-308, 1e308]))
 words = st.one_of(st.text(max_size=8), st.sampled_from(["flexion", "extension", "radial", "normal", "count", "cube",
                                                         "fit", "RAS", "left", "free", "hinge", "knee", "m", "fixed"]))
 anything = st.recursive(st.one_of(st.none(), st.booleans(), numbers, words, st.binary(max_size=4)),
-                        lambda inner: st.one_of(st.lists(inner, max_size=4),
-                                                st.dictionaries(words, inner, max_size=3)), max_leaves=6)
-kinds = st.sampled_from([np.dtype(kind) for kind in (
-    "f8", "f4", "f2", ">f8", "i8", "i4", "u1", "u8", "c16", "?", "O", "U3", "M8[s]", "g")])
+                        lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(words, inner, max_size=3)), max_leaves=6)
+kinds = st.sampled_from([np.dtype(kind) for kind in ("f8", "f4", "f2", ">f8", "i8", "i4", "u1", "u8", "c16", "?", "O", "U3", "M8[s]", "g")])
 
 
 def arrays(*shapes):
@@ -46,8 +44,7 @@ def reals(shape, low=-100.0, high=100.0):
 # Well-formed, so that what lies behind the first checks is reached too.
 angles = st.floats(-400, 400)
 poses = st.one_of(
-    st.builds(lambda f, a, r: joint().pose(flexion_deg=f, adduction_deg=a, internal_rotation_deg=r),
-              angles, angles, angles),
+    st.builds(lambda f, a, r: joint().pose(flexion_deg=f, adduction_deg=a, internal_rotation_deg=r), angles, angles, angles),
     st.builds(lambda f, t: joint().pose(flexion_deg=f) + np.pad(np.array(t)[:, None], ((0, 1), (3, 0))), angles,
               st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=3)),
     st.builds(lambda f, n: np.tile(joint().pose(flexion_deg=f), (n, 1, 1)), angles, st.integers(0, 5)))
@@ -63,7 +60,7 @@ _shared = {}
 def joint():
     if not _shared:
         bones = condyle.sample_hip(triangles=(1600, 600))
-        _shared["joint"] = condyle.Joint(bones.hip_bone, bones.femur)
+        _shared["joint"] = condyle.Joint(*bones)
         _shared["rom"] = _shared["joint"].range_of_motion([])
         _shared["table"] = condyle.RadialTable(bones.femur)
     return _shared["joint"]
@@ -90,8 +87,7 @@ def test_meshes(mesh, merge):
 
 
 @fuzz
-@given(any_pose, st.one_of(st.sampled_from(["radial", "tangential", "normal"]), words, anything),
-       st.one_of(st.none(), words, anything))
+@given(any_pose, st.one_of(st.sampled_from(["radial", "tangential", "normal"]), words, anything), st.one_of(st.none(), words, anything))
 def test_penetration(pose, method, about):
     refused_in_one_line(lambda: joint().penetration(pose, method, about=about))
 
@@ -112,8 +108,7 @@ def test_poses(coordinates):
 @fuzz
 @given(points, points, st.one_of(st.none(), arrays((0,)), anything))
 def test_tables(vertices, asked, moved):
-    table = condyle.RadialTable(condyle.TriMesh([[9, 9, 9], [-9, 9, -9], [-9, -9, 9], [9, -9, -9]],
-                                                [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]))
+    table = condyle.RadialTable(condyle.TriMesh([[9, 9, 9], [-9, 9, -9], [-9, -9, 9], [9, -9, -9]], [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]))
     refused_in_one_line(lambda: table.update(vertices, moved=moved))
     refused_in_one_line(lambda: table.query(asked))
 
@@ -126,13 +121,11 @@ def test_rings(point, direction, asked):
 
 
 @fuzz
-@given(st.dictionaries(st.sampled_from(["kind", "joint", "side", "units", "translation_frame", "centre", "fit_body",
-                                        "fit_within", "axes", "anterior", "superior", "landmarks", "reference_pose",
-                                        "fixed_in_W", "mobile_in_W", "name", "fixed_name"]),
+@given(st.dictionaries(st.sampled_from(["kind", "joint", "side", "units", "translation_frame", "centre", "fit_body", "fit_within", "axes", "anterior",
+                                        "superior", "landmarks", "reference_pose", "fixed_in_W", "mobile_in_W", "name", "fixed_name"]),
                        st.one_of(words, anything, arrays((3,), (4, 4))), max_size=3))
 def test_joints(arguments):
-    tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-    refused_in_one_line(lambda: condyle.Joint(tetrahedron, tetrahedron, **arguments))
+    refused_in_one_line(lambda: condyle.Joint((CORNERS, FACES), (CORNERS, FACES), **arguments))
 
 
 @fuzz
@@ -169,8 +162,7 @@ def test_recorded_contact(times, pose, resolution):
        st.one_of(reals(3), anything), st.one_of(reals((2, 3)), anything))
 def test_layers(modulus, ratio, thickness, pose, force, directions):
     def act():
-        contact = condyle.ElasticContact(joint().fixed, joint().mobile,
-                                         fixed_layer=condyle.ElasticLayer(modulus, ratio, thickness))
+        contact = condyle.ElasticContact(joint().fixed, joint().mobile, fixed_layer=condyle.ElasticLayer(modulus, ratio, thickness))
         contact.at(pose)
         return contact.balance(force, start=pose, free_directions=directions)
     refused_in_one_line(act)
@@ -189,8 +181,7 @@ def test_files_spheres_and_samples(path, number):
 
 
 @fuzz
-@given(st.one_of(reals((9, 3)), points), st.one_of(reals(3), anything), st.one_of(reals(3), anything),
-       st.one_of(st.floats(0, 100), anything))
+@given(st.one_of(reals((9, 3)), points), st.one_of(reals(3), anything), st.one_of(reals(3), anything), st.one_of(st.floats(0, 100), anything))
 def test_cylinders_and_clocks(given, point, direction, radius):
     refused_in_one_line(lambda: condyle.fit_cylinder(given, point, direction, radius))
     refused_in_one_line(lambda: condyle.find_cylinder(joint().mobile, within=(point, radius)))
@@ -201,11 +192,9 @@ def test_cylinders_and_clocks(given, point, direction, radius):
 
 
 @fuzz
-@given(any_pose, st.one_of(reals(3), anything), st.one_of(reals(3), anything), st.one_of(numbers, anything),
-       st.one_of(reals(3), anything))
+@given(any_pose, st.one_of(reals(3), anything), st.one_of(reals(3), anything), st.one_of(numbers, anything), st.one_of(reals(3), anything))
 def test_first_contacts_depths_and_frames(pose, point, direction, number, normal):
-    refused_in_one_line(lambda: condyle.FirstContact(joint().fixed, joint().mobile, point, direction).limits(
-        pose, positive_deg=number))
+    refused_in_one_line(lambda: condyle.FirstContact(joint().fixed, joint().mobile, point, direction).limits(pose, positive_deg=number))
     refused_in_one_line(lambda: condyle.DepthRange(joint(), number).deepest({"flexion": number}))
     refused_in_one_line(lambda: joint().contact_along(pose, reach_mm=number))
     faces = joint().normal_contact({"flexion_deg": 140}, casting="mobile").mobile

@@ -7,12 +7,11 @@ import sys
 from pathlib import Path
 
 import pytest
-
-COMMAND = os.environ.get("CONDYLE_COMMAND", "condyle")
+from common import COMMAND, run_command
 
 
 def help_of(*words: str, all: bool = False) -> str:
-    return subprocess.run([COMMAND, *words, "--help-all" if all else "--help"], capture_output=True, text=True, check=True).stdout
+    return run_command(*words, "--help-all" if all else "--help").stdout
 
 
 def subcommands(*words: str) -> list[str]:
@@ -25,10 +24,10 @@ COMMANDS = ["", *subcommands(), *subcommands("sample")]
 
 
 @pytest.fixture
-def on_path(command, tmp_path_factory, monkeypatch):
+def on_path(tmp_path_factory, monkeypatch):
     """The command and Python by the names that examples use."""
     tools = tmp_path_factory.mktemp("bin")
-    (tools / "condyle").symlink_to(Path(command).resolve())
+    (tools / "condyle").symlink_to(Path(COMMAND).resolve())
     (tools / "python3").symlink_to(sys.executable)
     monkeypatch.setenv("PATH", f"{tools}{os.pathsep}{os.environ['PATH']}")
 

@@ -1,10 +1,10 @@
 """Label maps, surfaces of arrays, and joints of bones that were segmented."""
 
 import pickle
-import subprocess
 
 import numpy as np
 import pytest
+from common import refused, run_command
 
 import condyle
 
@@ -15,20 +15,23 @@ def scan(tmp_path_factory, sampled):
 
 
 @pytest.fixture(scope="module")
+def labels(scan):
+    return condyle.read_labels(scan / "labels.nii.gz")
+
+
+@pytest.fixture(scope="module")
 def hip(scan):
     return condyle.Joint.from_labels(scan / "labels.nii.gz", "hip_right", "femur_right", task="total")
 
 
-def test_labels_are_listed(scan):
-    labels = condyle.read_labels(scan / "labels.nii.gz")
+def test_labels_are_listed(labels):
     assert [each.label for each in labels.labels] == [76, 78]
     assert labels.voxels().shape == labels.size
     assert [int((labels.voxels() == each.label).sum()) for each in labels.labels] == [each.voxels for each in labels.labels]
     assert (np.diag(labels.lps_from_index)[:3] == 1.5).all()
 
 
-def test_surfaces_of_arrays_are_those_of_files(scan):
-    labels = condyle.read_labels(scan / "labels.nii.gz")
+def test_surfaces_of_arrays_are_those_of_files(labels):
     of_file = labels.surface(76)
     of_array = condyle.surface(labels.voxels(), labels.lps_from_index, 76)
     assert (of_file.mesh.vertices == of_array.mesh.vertices).all()
@@ -39,9 +42,8 @@ def test_surfaces_of_arrays_are_those_of_files(scan):
     assert np.abs(np.sort(mirrored_twice, axis=0) - np.sort(of_file.mesh.vertices, axis=0)).max() < 1e-9
 
 
-def test_joints_are_those_that_the_command_proposes(scan, hip, command, tmp_path):
-    subprocess.run([command, "init", scan / "labels.nii.gz", "--task", "total", "--fixed", "hip_right", "--mobile",
-                    "femur_right", "-o", tmp_path / "hip.toml"], check=True, capture_output=True)
+def test_joints_are_those_that_the_command_proposes(scan, hip, tmp_path):
+    run_command("init", scan / "labels.nii.gz", "--task", "total", "--fixed", "hip_right", "--mobile", "femur_right", "-o", tmp_path / "hip.toml")
     of_file = condyle.read_joint(tmp_path / "hip.toml")
     assert (of_file.mobile.vertices == hip.mobile.vertices).all() and (of_file.fixed.vertices == hip.fixed.vertices).all()
     assert of_file.name == hip.name and of_file.side == hip.side == "right"
@@ -58,8 +60,7 @@ def test_copies_keep_their_image(hip):
     assert copy.range_of_motion(["flexion"]).bands(samples=20) == (band,)
 
 
-def test_what_the_image_cuts_is_no_limit(scan):
-    labels = condyle.read_labels(scan / "labels.nii.gz")
+def test_what_the_image_cuts_is_no_limit(labels):
     k = int(round((0 - labels.lps_from_index[2, 3]) / 1.5))
     cut = labels.voxels()[:, :, k - 30:k + 30]
     affine = labels.lps_from_index.copy()
@@ -93,15 +94,10 @@ def test_what_the_image_cuts_is_no_limit(scan):
     (dict(labels=np.ones((5, 5, 5), int), affine=np.eye(4), sigma_voxels=9), "sigma_voxels: "),
 ])
 def test_bad_arrays_are_refused(given, says):
-    with pytest.raises(condyle.UsageError, match=says):
-        condyle.surface(**given)
+    refused(lambda: condyle.surface(**given), says)
 
 
-def test_bad_labels_are_refused(scan):
-    labels = condyle.read_labels(scan / "labels.nii.gz")
-    with pytest.raises(condyle.UsageError, match="femur"):
-        labels.surface("femur")
-    with pytest.raises(condyle.UsageError, match="both bodies"):
-        condyle.Joint.from_labels(labels, 76, 76)
-    with pytest.raises(condyle.FileError):
-        condyle.read_labels(scan / "femur.ply")
+def test_bad_labels_are_refused(labels, scan):
+    refused(lambda: labels.surface("femur"), "femur")
+    refused(lambda: condyle.Joint.from_labels(labels, 76, 76), "both bodies")
+    refused(lambda: condyle.read_labels(scan / "femur.ply"), kind=condyle.FileError)

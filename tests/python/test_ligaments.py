@@ -1,6 +1,5 @@
 """Ligaments of joint files: what Python says of them is what the command does."""
 
-import csv
 import json
 import os
 import pickle
@@ -11,35 +10,26 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from common import changed, json_of_command, refused, rows_of, run_command
 
 import condyle
 
-STRINGS = """
-[[ligament]]
-name = "front"
-fixed = [30, 28, 8]
-mobile = [[12, -60, 30], [12, -38, 30]]
-slack_share = 1.0
-ends_at_strain = 0.06
-wrap = { shape = "sphere", body = "mobile", centre = [0, 0, 0], radius = 24 }
+BALL = {"shape": "sphere", "body": "mobile", "centre": [0, 0, 0], "radius": 24}
+FRONT = {"name": "front", "fixed": [30, 28, 8], "mobile": [[12, -60, 30], [12, -38, 30]], "slack_share": 1.0, "ends_at_strain": 0.06, "wrap": BALL}
+BACK = {"name": "back", "fixed": [-28, -15, 10], "mobile": [2, 5, 48], "slack_length": 50, "stiffness_n": 800, "transition_strain": 0.04}
 
-[[ligament]]
-name = "back"
-fixed = [-28, -15, 10]
-mobile = [2, 5, 48]
-slack_length = 50
-stiffness_n = 800
-transition_strain = 0.04
-"""
+
+def toml(value):
+    return "{ " + ", ".join(f"{key} = {toml(each)}" for key, each in value.items()) + " }" if isinstance(value, dict) else json.dumps(value)
+
+
+def in_a_file(*ligaments):
+    return "".join("\n[[ligament]]\n" + "".join(f"{key} = {toml(value)}\n" for key, value in each.items()) for each in ligaments)
 
 
 @pytest.fixture(scope="module")
 def file(hip_file, tmp_path_factory):
-    path = tmp_path_factory.mktemp("ligaments") / "hip.toml"
-    text = open(hip_file).read()
-    folder = str(hip_file).rsplit("/", 1)[0]
-    path.write_text(text.replace('mesh = "', f'mesh = "{folder}/') + STRINGS)
-    return path
+    return changed(hip_file, tmp_path_factory.mktemp("ligaments"), more=in_a_file(FRONT, BACK))
 
 
 @pytest.fixture(scope="module")
@@ -59,18 +49,14 @@ def test_a_joint_has_those_of_its_file(joint):
 
 
 def test_joints_of_meshes_take_them_by_the_keys_of_the_file(joint):
-    given = [{"name": "front", "fixed": [30, 28, 8], "mobile": np.array([[12, -60, 30], [12, -38, 30]]), "slack_share": 1,
-              "ends_at_strain": 0.06, "wrap": {"shape": "sphere", "body": "mobile", "centre": [0, 0, 0], "radius": 24}},
-             {"name": "back", "fixed": (-28, -15, 10), "mobile": (2, 5, 48), "slack_length": 50, "stiffness_n": 800,
-              "transition_strain": 0.04}]
+    given = [{**FRONT, "mobile": np.array(FRONT["mobile"])}, {**BACK, "fixed": tuple(BACK["fixed"])}]
     same = condyle.Joint(joint.fixed, joint.mobile, reference_pose={}, ligaments=given)
     for ours, theirs in zip(same.ligaments, joint.ligaments):
         assert (ours.name, ours.slack_length_mm, ours.fixed.tolist()) == (theirs.name, theirs.slack_length_mm, theirs.fixed.tolist())
     assert [limit.ligament for limit in same.range_of_motion().limits] == [limit.ligament for limit in joint.range_of_motion().limits]
     for wrong, why in (([{"name": "a"}], "ligament.0..fixed: is missing"), ({"name": "a"}, "a list of mappings"),
                        ([{**given[1], "slack": 3}], "unknown key"), ([{**given[1], "stiffness_n": float("nan")}], "finite")):
-        with pytest.raises(condyle.UsageError, match=why):
-            condyle.Joint(joint.fixed, joint.mobile, ligaments=wrong)
+        refused(lambda: condyle.Joint(joint.fixed, joint.mobile, ligaments=wrong), why)
 
 
 def test_states_follow_from_points_and_slack_length(joint):
@@ -111,8 +97,8 @@ def test_stiffness_is_the_change_of_force_and_moment(joint):
     assert np.isnan(joint.ligament_stiffness(gap)[:, 0]).all()
 
 
-def test_limits_name_the_ligament_that_ends_them_as_the_command_does(joint, file, command):
-    said = json.loads(subprocess.run([command, "rom", file, "--json"], check=True, capture_output=True).stdout)
+def test_limits_name_the_ligament_that_ends_them_as_the_command_does(joint, file):
+    said = json_of_command("rom", file)
     rom = joint.range_of_motion()
     ended = [limit for limit in rom.limits if limit.reason == "ligament"]
     assert ended and all(limit.ligament == "front" and limit.contact is None for limit in ended)
@@ -123,12 +109,12 @@ def test_limits_name_the_ligament_that_ends_them_as_the_command_does(joint, file
         assert at.strain[0] == pytest.approx(0.06, abs=1e-12)
 
 
-def test_the_command_writes_the_same_states_along_a_motion(joint, file, command, tmp_path):
+def test_the_command_writes_the_same_states_along_a_motion(joint, file, tmp_path):
     flexion = [0, 15, 30, 45]
     motion = tmp_path / "walk.csv"
     motion.write_text("time,flexion_deg\n" + "".join(f"{i},{value}\n" for i, value in enumerate(flexion)))
-    subprocess.run([command, "motion", file, "--motion", motion, "--out", tmp_path / "walk"], check=True, capture_output=True)
-    rows = list(csv.DictReader(open(tmp_path / "walk" / "ligaments.csv")))
+    run_command("motion", file, "--motion", motion, "--out", tmp_path / "walk")
+    rows = rows_of(tmp_path / "walk" / "ligaments.csv")
     states = joint.ligament_states(joint.pose(flexion_deg=flexion))
     for k, row in enumerate(rows):
         for i, name in enumerate(states.names):
@@ -141,11 +127,11 @@ def test_the_command_writes_the_same_states_along_a_motion(joint, file, command,
     assert said["ligaments"][1]["largest_tension_n"]["value"] == states.tension_n[1].max()
 
 
-DAMPED = STRINGS + "damping_n_s = 40\n"
+DAMPED = FRONT, {**BACK, "damping_n_s": 40}
 
 
 def test_damping_follows_from_strain_and_speed(file):
-    joint = condyle.read_joint(with_strings(file, DAMPED))
+    joint = condyle.read_joint(with_strings(file, *DAMPED))
     front, back = joint.ligaments
     assert (front.damping_n_s, back.damping_n_s) == (0, 40)
     poses = joint.pose(flexion_deg=[0, 20, 40], abduction_deg=10)
@@ -170,16 +156,11 @@ def test_damping_follows_from_strain_and_speed(file):
     assert one.total_n.tolist() == states.total_n[:, 0].tolist()
     for wrong in ({"velocity_mm_s": v}, {"velocity_mm_s": v[:2], "angular_velocity_rad_s": w}, {"time_s": [0, 1]}, {"time_s": [0, 2, 1]},
                   {"time_s": [0, 1, 2], "velocity_mm_s": v, "angular_velocity_rad_s": w}):
-        with pytest.raises(condyle.UsageError):
-            joint.ligament_states(poses, **wrong)
+        refused(lambda: joint.ligament_states(poses, **wrong))
 
 
-def test_the_command_damps_by_the_frames_or_by_the_speeds_of_the_file(file, command, tmp_path):
-    path = with_strings(file, DAMPED + """
-[recorded_motion]
-flexion = { column = "bend", sign = -1 }
-abduction = "tilt"
-""".replace("abduction", "adduction"))
+def test_the_command_damps_by_the_frames_or_by_the_speeds_of_the_file(file, tmp_path):
+    path = with_strings(file, *DAMPED, more='[recorded_motion]\nflexion = { column = "bend", sign = -1 }\nadduction = "tilt"\n')
     joint = condyle.read_joint(path)
     time = np.arange(0, 1.01, 0.1)
     value = np.column_stack([-np.sin(time), 0.2 * np.cos(3 * time)])
@@ -190,7 +171,7 @@ abduction = "tilt"
         names = names if name == with_speeds else names[::2]
         rows = ["\t".join(map(repr, map(float, row))) for row in np.column_stack(columns)]
         name.write_text("inDegrees=no\nendheader\n" + "\n".join(["\t".join(["time", *names]), *rows]) + "\n")
-        subprocess.run([command, "motion", path, "--motion", name, "--out", name.with_suffix("")], check=True, capture_output=True)
+        run_command("motion", path, "--motion", name, "--out", name.with_suffix(""))
     for name, source in ((with_speeds, "recorded"), (without, "frames")):
         folder = name.with_suffix("")
         motion = joint.motion(name)
@@ -217,15 +198,9 @@ abduction = "tilt"
     np.testing.assert_allclose(exact.lengthening_mm_s, (beside[1].length_mm - beside[0].length_mm) / 2e-4, atol=1e-4)
 
 
-def test_what_contradicts_the_bones_stands_in_every_answer(file, command, tmp_path):
-    path = with_strings(file, """
-[[ligament]]
-name = "off"
-fixed = [30, 28, 8]
-mobile = [12, -38, 330]
-slack_share = 105
-wrap = { shape = "ellipsoid", body = "mobile", centre = [0, 0, 0], radii = [1, 1, 1], axes = [[1, 0, 0], [0, 1, 0]] }
-""")
+def test_what_contradicts_the_bones_stands_in_every_answer(file, tmp_path):
+    path = with_strings(file, {"name": "off", "fixed": [30, 28, 8], "mobile": [12, -38, 330], "slack_share": 105, "wrap": {
+        "shape": "ellipsoid", "body": "mobile", "centre": [0, 0, 0], "radii": [1, 1, 1], "axes": [[1, 0, 0], [0, 1, 0]]}})
     joint = condyle.read_joint(path)
     codes = ["ligament_off_bone", "unlikely_strain"]
     assert [note.code for note in joint.notes] == codes
@@ -234,17 +209,17 @@ wrap = { shape = "ellipsoid", body = "mobile", centre = [0, 0, 0], radii = [1, 1
     (tmp_path / "walk.csv").write_text("time,flexion_deg\n0,0\n1,15\n")
     (tmp_path / "hips.csv").write_text(f"id,joint\na,{path}\n")
     for words in (["rom"], ["motion", "--motion", tmp_path / "walk.csv"], ["depth", "--pose", "flexion=10"], ["measure"]):
-        said = json.loads(subprocess.run([command, words[0], path, *words[1:], "--json"], check=True, capture_output=True).stdout)
+        said = json_of_command(words[0], path, *words[1:])
         assert [note["code"] for note in said["notes"] if "ligament" in note["text"]] == codes, words
-        strict = subprocess.run([command, words[0], path, *words[1:], "--strict"], capture_output=True, text=True)
+        strict = run_command(words[0], path, *words[1:], "--strict", check=False)
         assert strict.returncode == 4 and "ligament off: its mobile end is" in strict.stderr
-    subprocess.run([command, "study", tmp_path / "hips.csv", "--out", tmp_path / "study"], check=True, capture_output=True)
+    run_command("study", tmp_path / "hips.csv", "--out", tmp_path / "study")
     assert rows_of(tmp_path / "study" / "hips.csv")[0]["notes"].split() == codes
 
 
 def test_lengths_that_are_not_known_and_strains_that_nothing_bears_are_noted(joint):
     given = {"name": "a", "fixed": [30, 28, 8], "mobile": [12, -38, 30], "slack_length": 60}
-    round_it = {"wrap": {"shape": "sphere", "body": "mobile", "centre": [12, -38, 30], "radius": 9}}
+    round_it = {"wrap": {**BALL, "centre": [12, -38, 30], "radius": 9}}
     for more, code in ((round_it, "unknown_ligament_length"), ({"slack_length": 50}, "unlikely_strain")):
         other = condyle.Joint(joint.fixed, joint.mobile, reference_pose={}, ligaments=[{**given, **more}])
         for ask in (other.ligament_states, other.ligament_stiffness):
@@ -253,14 +228,16 @@ def test_lengths_that_are_not_known_and_strains_that_nothing_bears_are_noted(joi
         assert [note.code for note in other.ligament_states(other.pose(extension_deg=60)).notes] == [code]
 
 
-def test_what_does_not_look_for_ligaments_refuses_them(joint, file, command):
-    done = subprocess.run([command, "rom", file, "--allow-depth", "1"], capture_output=True, text=True)
-    assert done.returncode == 2 and "ligament front ends motions" in done.stderr
-    with pytest.raises(condyle.UsageError, match="ligament front ends motions, which a path"):
-        joint.path_limit([{"flexion": 0}, {"flexion": 20}])
+def test_what_does_not_look_for_ligaments_refuses_them(joint, file):
+    for words, line in ((["rom", file, "--allow-depth", "1"], "ligament front ends motions"),
+                        (["load", file, "--ligaments", "--e", "10", "--nu", "0.45", "--thickness", "2"], "--ligaments: needs a force")):
+        done = run_command(*words, check=False)
+        assert done.returncode == 2 and line in done.stderr
+    refused(lambda: joint.path_limit([{"flexion": 0}, {"flexion": 20}]), "ligament front ends motions, which a path")
 
 
-def with_strings(file, text):
+def with_strings(file, *ligaments, more=""):
+    text = in_a_file(*ligaments) + more
     path = file.with_name(f"other_{abs(hash(text))}.toml")
     path.write_text(file.read_text().split("\n[[ligament]]")[0] + text)
     return path
@@ -268,68 +245,30 @@ def with_strings(file, text):
 
 def test_no_bone_goes_for_a_target_that_a_ligament_makes_unreachable(file):
     # Bone ends adduction at 33 degrees, the ligament at 35.
-    path = with_strings(file, """
-[[ligament]]
-name = "lateral"
-fixed = [5, 40, 35]
-mobile = [5, -5, 45]
-slack_length = 66.58470329263
-ends_at_strain = 0.05
-""")
+    path = with_strings(file, {"name": "lateral", "fixed": [5, 40, 35], "mobile": [5, -5, 45], "slack_length": 66.58470329263,
+                               "ends_at_strain": 0.05})
     joint = condyle.read_joint(path)
     assert joint.range_of_motion(["adduction"]).limits[0].reason == "contact"
-    with pytest.raises(condyle.MeshError, match="ligament lateral ends adduction at 35 degrees"):
-        joint.resection({"adduction": 40})
+    refused(lambda: joint.resection({"adduction": 40}), "ligament lateral ends adduction at 35 degrees", condyle.MeshError)
     assert joint.resection({"adduction": 34}, band_samples=0).targets[0].after.limit_deg >= 34
 
 
-def test_a_band_does_not_look_for_lengths_beyond_the_contact_that_ends_a_motion(file, command):
-    path = with_strings(file, """
-[[ligament]]
-name = "long"
-fixed = [26.21681052, -17.79178854, 7.90460216]
-mobile = [-28.92712403, 34.64839752, 31.8405042]
-slack_share = 2
-ends_at_strain = 0.2
-wrap = { shape = "sphere", body = "mobile", centre = [3.78365306, 4.38717379, 7.681818], radius = 25 }
-""")
-    subprocess.run([command, "rom", path, "--motion", "adduction", "--band=20"], check=True, capture_output=True)
-
-
-def test_ligaments_pull_only_against_a_force(file, command):
-    done = subprocess.run([command, "load", file, "--ligaments", "--e", "10", "--nu", "0.45", "--thickness", "2"],
-                          capture_output=True, text=True)
-    assert done.returncode == 2 and "--ligaments: needs a force" in done.stderr
+def test_a_band_does_not_look_for_lengths_beyond_the_contact_that_ends_a_motion(file):
+    path = with_strings(file, {
+        "name": "long", "fixed": [26.21681052, -17.79178854, 7.90460216], "mobile": [-28.92712403, 34.64839752, 31.8405042], "slack_share": 2,
+        "ends_at_strain": 0.2, "wrap": {**BALL, "centre": [3.78365306, 4.38717379, 7.681818], "radius": 25}})
+    run_command("rom", path, "--motion", "adduction", "--band=20")
 
 
 GRID = ["--map", "flexion=-60:0:30", "adduction=-20:20:20"]
 
-
-def rows_of(path):
-    return list(csv.DictReader(line for line in open(path) if not line.startswith("#")))
-
-
-TWO_ENDING = """
-[[ligament]]
-name = "front, long"
-fixed = [30, 28, 8]
-mobile = [12, -38, 30]
-slack_share = 1.05
-ends_at_strain = 0.1
-wrap = { shape = "sphere", body = "mobile", centre = [0, 0, 0], radius = 24 }
-
-[[ligament]]
-name = "back"
-fixed = [-28, -15, 10]
-mobile = [2, 5, 48]
-slack_share = 1.1
-ends_at_strain = 0.1
-"""
+TWO_ENDING = ({"name": "front, long", "fixed": [30, 28, 8], "mobile": [12, -38, 30], "slack_share": 1.05, "ends_at_strain": 0.1, "wrap": BALL},
+              {"name": "back", "fixed": [-28, -15, 10], "mobile": [2, 5, 48], "slack_share": 1.1, "ends_at_strain": 0.1})
 
 
-def test_a_map_names_the_ligament_of_each_end(file, command, tmp_path):
-    path = with_strings(file, TWO_ENDING)
-    subprocess.run([command, "rom", path, "--motion", "flexion", *GRID, "--out", tmp_path, "--ascii"], check=True, capture_output=True)
+def test_a_map_names_the_ligament_of_each_end(file, tmp_path):
+    path = with_strings(file, *TWO_ENDING)
+    run_command("rom", path, "--motion", "flexion", *GRID, "--out", tmp_path, "--ascii")
     joint = condyle.read_joint(path)
     found = joint.range_of_motion([]).map({"flexion": (-60, 0, 30)}, {"adduction": (-20, 20, 20)})
     assert found.ligaments == ("front, long", "back")
@@ -355,11 +294,11 @@ def test_a_map_names_the_ligament_of_each_end(file, command, tmp_path):
     assert 'Name="lower_ligament"' in vtp and 'Name="upper_ligament"' in vtp and 'Name="interval_low_ligament"' in vtp
 
 
-def test_a_study_counts_the_points_of_a_map_that_ligaments_end(file, command, tmp_path):
-    path = with_strings(file, TWO_ENDING)
+def test_a_study_counts_the_points_of_a_map_that_ligaments_end(file, tmp_path):
+    path = with_strings(file, *TWO_ENDING)
     (tmp_path / "hips.csv").write_text(f"id,joint\na,{path}\n")
-    subprocess.run([command, "study", tmp_path / "hips.csv", *GRID, "--out", tmp_path / "study"], check=True, capture_output=True)
-    subprocess.run([command, "rom", path, "--motion", "flexion", *GRID, "--out", tmp_path / "rom"], check=True, capture_output=True)
+    run_command("study", tmp_path / "hips.csv", *GRID, "--out", tmp_path / "study")
+    run_command("rom", path, "--motion", "flexion", *GRID, "--out", tmp_path / "rom")
     hip, = rows_of(tmp_path / "study" / "hips.csv")
     points = rows_of(tmp_path / "rom" / "map.csv")
     for end in ("lower", "upper"):
@@ -374,7 +313,7 @@ KNEE = DATA / "osim_lenhart2015"
 
 
 @pytest.mark.skipif(not (KNEE / "make_geometry.py").exists(), reason="no published knee in CONDYLE_DATA")
-def test_without_its_anterior_cruciate_a_knee_goes_farther_and_strains_what_is_left(command, tmp_path):
+def test_without_its_anterior_cruciate_a_knee_goes_farther_and_strains_what_is_left(tmp_path):
     subprocess.run([sys.executable, KNEE / "make_geometry.py", tmp_path / "Geometry"], check=True, capture_output=True)
 
     def without(*names):
@@ -384,10 +323,8 @@ def test_without_its_anterior_cruciate_a_knee_goes_farther_and_strains_what_is_l
         assert count
         model = tmp_path / f"without_{'_'.join(names)}.osim"
         model.write_text(text)
-        subprocess.run([command, "init", model, "--joint", "knee_r", "-o", model.with_suffix(".toml")], check=True, capture_output=True)
-        said = subprocess.run([command, "load", model.with_suffix(".toml"), "--pose", "flexion=10", "--force", "50", "0", "0", "--ligaments",
-                               "--json"], check=True, capture_output=True)
-        found = json.loads(said.stdout)
+        run_command("init", model, "--joint", "knee_r", "-o", model.with_suffix(".toml"))
+        found = json_of_command("load", model.with_suffix(".toml"), "--pose", "flexion=10", "--force", "50", "0", "0", "--ligaments")
         assert found["balance"]["outcome"] == "balanced"
         return found["balance"]["moved_mm"][0], {each["name"]: each for each in found["ligaments"]}
 
@@ -405,25 +342,24 @@ def test_without_its_anterior_cruciate_a_knee_goes_farther_and_strains_what_is_l
     # Contact, ligaments and load of a motion are in one frame, which the columns name, and add up to nothing.
     (tmp_path / "bent.mot").write_text("inDegrees=yes\nendheader\ntime knee_flex_r\n0 10\n")
     for body in ("mobile", "fixed"):
-        subprocess.run([command, "motion", tmp_path / "without_MCLs_MCLp.toml", "--motion", tmp_path / "bent.mot", "--force", "50", "0", "0", "--ligaments",
-                        "--casting", body, "--out", tmp_path / body], check=True, capture_output=True)
+        run_command("motion", tmp_path / "without_MCLs_MCLp.toml", "--motion", tmp_path / "bent.mot", "--force", "50", "0", "0", "--ligaments",
+                    "--casting", body, "--out", tmp_path / body)
         table = {name: value for file in ("curves", "ligaments") for name, value in rows_of(tmp_path / body / f"{file}.csv")[0].items()}
         for axis in "xyz":
             forces = [float(table[f"{of}force_in_{body}_{axis}_n"]) for of in ("", "load_", "ligaments_")]
             assert abs(sum(forces)) < 2e-6 and np.abs(forces).max() > 1, (body, axis, forces)  # of each force 1e-6 N may be left
 
 
-def test_a_load_moves_the_frames_so_that_their_speeds_are_not_those_of_the_file(command, sampled, tmp_path):
+def test_a_load_moves_the_frames_so_that_their_speeds_are_not_those_of_the_file(sampled, tmp_path):
     folder = sampled(tmp_path / "cartilages", "cartilages", "--clearance", "-0.3")
     joint = folder / "cartilages.toml"
-    joint.write_text(joint.read_text() + '\n[[ligament]]\nname = "string"\nfixed = [0, 60, 0]\nmobile = [0, -30, 0]\nslack_length = 80\ndamping_n_s = 2\n'
-                     '\n[recorded_motion]\nflexion = "bend"\n')
+    string = {"name": "string", "fixed": [0, 60, 0], "mobile": [0, -30, 0], "slack_length": 80, "damping_n_s": 2}
+    joint.write_text(joint.read_text() + in_a_file(string) + '\n[recorded_motion]\nflexion = "bend"\n')
     (tmp_path / "s.sto").write_text("inDegrees=yes\nendheader\ntime\t/j/k/bend/value\t/j/k/bend/speed\n0\t0\t-7\n1\t3\t-7\n2\t6\t-7\n")
     said = {}
     for name, load in (("still", ["--load"]), ("loaded", ["--force", "0", "1500", "0"])):
-        done = subprocess.run([command, "motion", joint, "--motion", tmp_path / "s.sto", *load, "--e", "12", "--nu", "0.42", "--thickness", "1.5",
-                               "--out", tmp_path / name, "--json"], check=True, capture_output=True)
-        said[name] = json.loads(done.stdout)["ligament_speeds_from"]
+        said[name] = json_of_command("motion", joint, "--motion", tmp_path / "s.sto", *load, "--e", "12", "--nu", "0.42", "--thickness", "1.5",
+                                     "--out", tmp_path / name)["ligament_speeds_from"]
     assert said == {"still": "recorded", "loaded": "frames"}
     rows = {name: rows_of(tmp_path / name / "ligaments.csv") for name in said}
     length = [float(row["string_length_mm"]) for row in rows["loaded"]]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from common import at_once
 
 import condyle
 
@@ -55,11 +56,7 @@ def test_many_threads_get_the_answers_of_one(hip):
             if not np.array_equal(table.query(hip.mobile.vertices).gap_mm, gaps):
                 wrong.append(pose)
 
-    threads = [threading.Thread(target=ask) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    at_once(4, ask)
     assert not wrong
 
 
@@ -70,7 +67,7 @@ import numpy as np
 import condyle
 
 bones = condyle.sample_hip()
-joint = condyle.Joint(bones.hip_bone, bones.femur)
+joint = condyle.Joint(*bones)
 rom = joint.range_of_motion([])
 deep = np.tile(joint.pose(flexion_deg=145), (200_000, 1, 1))
 moving = joint.pose(flexion_deg=np.arange(200_001) % 2 + 138)
@@ -89,7 +86,12 @@ calls = {
     "zones": lambda progress: rom.zones(own, progress=progress),
     "depths": lambda progress: condyle.DepthRange(joint, 1.0).limits(own, progress=progress),
 }
-for name, call in calls.items():
+without_progress = {
+    "limits": lambda _: joint.range_of_motion(own),
+    "hip": lambda _: condyle.sample_hip(triangles=(4_000_000, 4_000_000)),
+    "cartilages": lambda _: condyle.sample_cartilages(triangles=(4_000_000, 4_000_000)),
+}
+for name, call in {**calls, **without_progress}.items():
     seen = []
     def progress(done, total):
         # Sent while the library works, not while this runs: that would be an exception of the callback.
@@ -97,24 +99,14 @@ for name, call in calls.items():
         seen.append((done, total))
         if len(seen) == 1:
             threading.Timer(0.02, os.kill, (os.getpid(), signal.SIGINT)).start()
+    if name in without_progress:
+        seen.append((0, 1))
+        threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
     try:
         call(progress)
         print(name, "came to its end")
     except KeyboardInterrupt:
         print(name, "interrupted" if seen[-1][0] < seen[-1][1] else "at its end")
-
-without_progress = {
-    "limits": lambda: joint.range_of_motion(own),
-    "hip": lambda: condyle.sample_hip(triangles=(4_000_000, 4_000_000)),
-    "cartilages": lambda: condyle.sample_cartilages(triangles=(4_000_000, 4_000_000)),
-}
-for name, call in without_progress.items():
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-    try:
-        call()
-        print(name, "came to its end")
-    except KeyboardInterrupt:
-        print(name, "interrupted")
 """
 
 
@@ -132,10 +124,10 @@ def test_what_a_callback_raises_ends_the_call(hip):
     def progress(done, total):
         raise Enough
 
-    with pytest.raises(Enough):
-        hip.range_of_motion([]).map(*GRID, progress=progress)
-    with pytest.raises(Enough):
-        hip.penetration(np.tile(np.eye(4), (100, 1, 1)), progress=progress)
+    for ask in (lambda: hip.range_of_motion([]).map(*GRID, progress=progress),
+                lambda: hip.penetration(np.tile(np.eye(4), (100, 1, 1)), progress=progress)):
+        with pytest.raises(Enough):
+            ask()
 
 
 def test_progress_ends_with_all_done(hip):
@@ -152,7 +144,7 @@ def resident_bytes():
 @pytest.mark.skipif("asan" in os.environ.get("LD_PRELOAD", ""), reason="the address sanitizer keeps what was freed")
 def test_memory_does_not_grow_over_ten_thousand_calls():
     bones = condyle.sample_hip(scenario=1)
-    joint = condyle.Joint(bones.hip_bone, bones.femur)
+    joint = condyle.Joint(*bones)
     pose, table = joint.pose(flexion_deg=145), condyle.RadialTable(bones.hip_bone)
     points = np.array(bones.femur.vertices[:50])
 

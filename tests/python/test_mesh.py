@@ -4,16 +4,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from common import CORNERS, FACES, refused, soup
 
 import condyle
 
-CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
-FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-
-
-def soup(vertices, triangles):
-    """Each triangle with corners of its own, as STL files have them."""
-    return vertices[triangles].reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3)
+TETRAHEDRON = condyle.TriMesh(CORNERS, FACES)
 
 
 class VtkArray:
@@ -30,16 +25,14 @@ def vtk_like(vertices, triangles, with_offsets):
     cells = {"GetOffsetsArray": lambda: VtkArray(3 * np.arange(len(triangles) + 1)),
              "GetConnectivityArray": lambda: VtkArray(triangles.ravel())} if with_offsets else {
                  "GetData": lambda: VtkArray(np.column_stack([np.full(len(triangles), 3), triangles]).ravel())}
-    return SimpleNamespace(GetPoints=lambda: SimpleNamespace(GetData=lambda: VtkArray(vertices)),
-                           GetPolys=lambda: SimpleNamespace(**cells))
+    return SimpleNamespace(GetPoints=lambda: SimpleNamespace(GetData=lambda: VtkArray(vertices)), GetPolys=lambda: SimpleNamespace(**cells))
 
 
 @pytest.mark.parametrize("like", [
     lambda v, t: (v, t),
     lambda v, t: SimpleNamespace(vertices=v, faces=t),
     lambda v, t: SimpleNamespace(points=v, faces=np.column_stack([np.full(len(t), 3), t]).ravel()),
-    lambda v, t: SimpleNamespace(points=v, cells=[SimpleNamespace(type="vertex", data=np.array([[0]])),
-                                                  SimpleNamespace(type="triangle", data=t[:1]),
+    lambda v, t: SimpleNamespace(points=v, cells=[SimpleNamespace(type="vertex", data=np.array([[0]])), SimpleNamespace(type="triangle", data=t[:1]),
                                                   SimpleNamespace(type="triangle", data=t[1:])]),
     lambda v, t: SimpleNamespace(points=v, cells=[("triangle", t)]),
     lambda v, t: SimpleNamespace(points=v, cells={"triangle": t}),
@@ -66,7 +59,7 @@ def test_any_layout_and_type_gives_the_same_mesh(vertices, kind):
 
 
 def test_a_soup_is_merged_and_vertex_k_stays_vertex_k():
-    mesh = condyle.TriMesh(*soup(CORNERS, FACES))
+    mesh = condyle.TriMesh(*soup(TETRAHEDRON))
     assert mesh.is_closed
     np.testing.assert_array_equal(mesh.vertices, CORNERS[FACES].reshape(-1, 3))
     np.testing.assert_array_equal(mesh.triangles, np.arange(12).reshape(4, 3))
@@ -79,10 +72,8 @@ def test_a_soup_is_merged_and_vertex_k_stays_vertex_k():
 
 def test_a_soup_gives_each_of_its_vertices_what_the_joined_mesh_gives(coarse_bones):
     bones = coarse_bones
-    joined = condyle.Joint(bones.hip_bone, bones.femur)
-    hip_bone = condyle.TriMesh(*soup(bones.hip_bone.vertices, bones.hip_bone.triangles))
-    femur = condyle.TriMesh(*soup(bones.femur.vertices, bones.femur.triangles))
-    souped = condyle.Joint(hip_bone, femur)
+    joined = condyle.Joint(*bones)
+    souped = condyle.Joint(soup(bones.hip_bone), soup(bones.femur))
     np.testing.assert_array_equal(souped.mobile.vertices, joined.mobile.vertices[bones.femur.triangles].reshape(-1, 3))
     corner_of = bones.femur.triangles.ravel()
     poses = joined.pose(flexion_deg=[0, 100, 130], adduction_deg=20)
@@ -90,13 +81,11 @@ def test_a_soup_gives_each_of_its_vertices_what_the_joined_mesh_gives(coarse_bon
         one, other = joined.penetration(poses, method), souped.penetration(poses, method)
         assert max(len(each.mobile) for each in one) > 0
         for a, b in zip(one, other):
-            expected = {k: depth for v, depth in zip(a.mobile.vertex, a.mobile.depth_mm)
-                        for k in np.flatnonzero(corner_of == v)}
+            expected = {k: depth for v, depth in zip(a.mobile.vertex, a.mobile.depth_mm) for k in np.flatnonzero(corner_of == v)}
             assert dict(zip(b.mobile.vertex.tolist(), b.mobile.depth_mm.tolist())) == expected
             assert len(b.mobile) == len(expected) == len(b.mobile.triangle)
     np.testing.assert_array_equal(joined.gaps(poses[2]).mobile.gap_mm[corner_of], souped.gaps(poses[2]).mobile.gap_mm)
-    np.testing.assert_array_equal(joined.depths(poses[2]).mobile.depth_mm[corner_of],
-                                  souped.depths(poses[2]).mobile.depth_mm)
+    np.testing.assert_array_equal(joined.depths(poses[2]).mobile.depth_mm[corner_of], souped.depths(poses[2]).mobile.depth_mm)
     np.testing.assert_array_equal(joined.pairs(poses[2]), souped.pairs(poses[2]))
 
 
@@ -111,23 +100,13 @@ def test_a_soup_read_from_stl_is_joined_with_a_map_from_its_corners(tmp_path):
 
 
 def test_polygons_are_split_where_it_is_asked_for(tmp_path):
-    comb = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
-
-    def write(height):
-        path = tmp_path / "comb.obj"
-        path.write_text("".join(f"v {x} {y} {height * (-1) ** i}\n" for i, (x, y) in enumerate(comb)) + "f 1 2 3 4 5 6 7 8\n")
-        return path
-
-    with pytest.raises(condyle.FileError, match="only triangles"):
-        condyle.read_mesh(write(0))
-    flat = condyle.read_mesh(write(0), polygons="split")
-    assert len(flat.triangles) == 6 and list(flat.processing) == ["split 1 polygon into triangles"]
-    with pytest.raises(condyle.FileError, match="twisted"):
-        condyle.read_mesh(write(0.25), polygons="split")
-    twisted = condyle.read_mesh(write(0.25), polygons="guess")
+    comb, path = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)], tmp_path / "comb.obj"
+    path.write_text("".join(f"v {x} {y} {0.25 * (-1) ** i}\n" for i, (x, y) in enumerate(comb)) + "f 1 2 3 4 5 6 7 8\n")
+    for polygons, words, kind in (("refuse", "only triangles", condyle.FileError), ("split", "twisted", condyle.FileError),
+                                  ("fan", "polygons", condyle.UsageError)):
+        refused(lambda: condyle.read_mesh(path, polygons=polygons), words, kind)
+    twisted = condyle.read_mesh(path, polygons="guess")
     assert len(twisted.triangles) == 6 and "by a guess: their corners are up to 0.25 off one plane" in twisted.processing[0]
-    with pytest.raises(condyle.UsageError, match="polygons"):
-        condyle.read_mesh(write(0), polygons="fan")
 
 
 def test_arrays_cannot_be_written_and_outlive_their_mesh():
@@ -163,11 +142,10 @@ def test_inspection_finds_what_is_wrong():
 
 
 def test_repairs_are_made_by_name():
-    mesh = condyle.TriMesh(*soup(CORNERS, FACES), merge=False)
+    mesh = condyle.TriMesh(*soup(TETRAHEDRON), merge=False)
     assert not mesh.is_closed
     assert mesh.repaired("weld").is_closed
-    with pytest.raises(condyle.UsageError, match="weld"):
-        mesh.repaired("magic")
+    refused(lambda: mesh.repaired("magic"), "weld")
 
 
 def test_a_sphere_is_fitted_where_the_points_lie():
@@ -193,10 +171,8 @@ def test_a_cylinder_is_found_and_fitted_where_it_is():
     found = condyle.find_cylinder(tube)
     assert found.radius == pytest.approx(12, abs=0.05) and found.direction_bound_deg < 1
     np.testing.assert_allclose(found.direction, [0, 0, 1], atol=0.01)
-    with pytest.raises(condyle.MeshError):
-        condyle.fit_cylinder(points[:4], [0, 0, 0], [0, 0, 1], 10)
-    with pytest.raises(condyle.UsageError, match="direction"):
-        condyle.fit_cylinder(points, [0, 0, 0], [0, 0, 0], 10)
+    refused(lambda: condyle.fit_cylinder(points[:4], [0, 0, 0], [0, 0, 1], 10), kind=condyle.MeshError)
+    refused(lambda: condyle.fit_cylinder(points, [0, 0, 0], [0, 0, 0], 10), "direction")
 
 
 def test_the_head_of_the_sample_femur_is_found():

@@ -1,12 +1,12 @@
 """C++, the command line and Python give the same doubles at random poses of three scenes."""
 
-import json
 import os
 import re
 import subprocess
 
 import numpy as np
 import pytest
+from common import json_of_command
 
 import condyle
 
@@ -74,16 +74,14 @@ def test_one_pose_gives_what_it_gives_among_many(scene):
 
 
 @pytest.mark.parametrize("method", ["radial", "tangential", "normal", "reliable"])
-def test_the_command_gives_the_doubles_of_python(scene, command, method):
+def test_the_command_gives_the_doubles_of_python(scene, method):
     path, joint = scene
     angles = random_angles(1000 if LONG else 8)
     for degrees in zip(*angles.values()):
         named = dict(zip(angles, degrees))
         pose = " ".join(f"{name[:-4]}={float(value)!r}" for name, value in named.items())
-        said = json.loads(subprocess.run([command, "depth", path, "--pose", pose, "--method", method, "--json"],
-                                         check=True, capture_output=True).stdout)
-        compare = {"radial": compare_inside, "tangential": compare_inside, "normal": compare_normal,
-                   "reliable": compare_reliable}[method]
+        said = json_of_command("depth", path, "--pose", pose, "--method", method)
+        compare = {"radial": compare_inside, "tangential": compare_inside, "normal": compare_normal, "reliable": compare_reliable}[method]
         compare(said, joint, named, method)
 
 
@@ -104,8 +102,7 @@ def compare_reliable(said, joint, named, method):
     found = joint.depths(named)
     assert said["vertices_without_depth"] == found.mobile.without + found.fixed.without
     deepest = said["reliable_depth"]
-    depths = {name: 0 if body.deepest is None else body.depth_mm[body.deepest]
-              for name, body in (("mobile", found.mobile), ("fixed", found.fixed))}
+    depths = {name: 0 if body.deepest is None else body.depth_mm[body.deepest] for name, body in (("mobile", found.mobile), ("fixed", found.fixed))}
     assert (0 if deepest is None else deepest["depth_mm"]) == max(depths.values())
     if deepest is not None:
         assert deepest["vertex"] == getattr(found, deepest["body"]).deepest

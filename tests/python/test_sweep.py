@@ -1,12 +1,11 @@
 """Sweeps over parameters of parts, as the command has them."""
 
-import csv
 import json
 import pickle
-import subprocess
 
 import numpy as np
 import pytest
+from common import refused, rows_of, run_command
 
 import condyle
 
@@ -27,19 +26,13 @@ def zone(hip):
     return hip.sweep(VARY, TARGETS, band_samples=20, seed=3)
 
 
-def rows_of(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 @pytest.fixture(scope="module")
-def by_command(command, sampled, tmp_path_factory):
+def by_command(sampled, tmp_path_factory):
     """What the command writes of the same sweep."""
     folder = sampled(tmp_path_factory.mktemp("swept"), "replacement", "--facets", "120")
     (folder / "daily.csv").write_text(TABLE)
-    subprocess.run([command, "sweep", folder / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
-                    "--targets", folder / "daily.csv", "--band=20", "--seed", "3", "--out", folder / "zone"], check=True,
-                   capture_output=True)
+    run_command("sweep", folder / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10", "--targets", folder / "daily.csv",
+                "--band=20", "--seed", "3", "--out", folder / "zone")
     return folder / "zone"
 
 
@@ -87,13 +80,13 @@ def test_a_table_is_read_as_the_command_reads_it(hip, zone, tmp_path):
     assert read.probability is None
 
 
-def test_the_best_design_is_by_weights_or_by_least_change_as_the_command_finds_it(hip, zone, by_command, command):
+def test_the_best_design_is_by_weights_or_by_least_change_as_the_command_finds_it(hip, zone, by_command):
     (by_command.parent / "weighted.csv").write_text("name,motion,reach_deg,weight\nsitting,flexion,110,4\npivoting,external_rotation,40,\n")
     targets = [condyle.Target("sitting", "flexion", 110, weight=4), ("pivoting", "external_rotation", 40)]
     bests = {}
     for best in ("largest_margin", "least_change"):
-        ran = subprocess.run([command, "sweep", by_command.parent / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
-                              "--targets", by_command.parent / "weighted.csv", "--best", best.replace("_", "-"), "--json"], capture_output=True, check=True)
+        ran = run_command("sweep", by_command.parent / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10", "--targets",
+                          by_command.parent / "weighted.csv", "--best", best.replace("_", "-"), "--json")
         said = json.loads(ran.stdout)
         swept = hip.sweep(VARY, targets, best=best)
         assert swept.best.values == said["best"]["values"] and swept.best_by == said["best_by"] == best
@@ -109,8 +102,7 @@ def test_the_best_design_is_by_weights_or_by_least_change_as_the_command_finds_i
                        for b in zone.axes["cup.anteversion"]] for a in zone.axes["cup.inclination"]])
     at = [list(axis).index(value) for axis, value in zip(zone.axes.values(), near.best.values.values())]
     assert steps[tuple(at)] == steps[near.safe].min()
-    with pytest.raises(condyle.UsageError, match="weight"):
-        hip.sweep(VARY, [condyle.Target("sitting", "flexion", 110, weight=0)])
+    refused(lambda: hip.sweep(VARY, [condyle.Target("sitting", "flexion", 110, weight=0)]), "weight")
 
 
 def test_its_files_are_those_of_the_command_but_where_it_comes_from(zone, by_command, tmp_path):
@@ -150,8 +142,7 @@ def test_it_becomes_a_dataset(zone):
 def test_it_is_pickled_without_its_files(zone, tmp_path):
     copy = pickle.loads(pickle.dumps(zone))
     assert np.array_equal(copy.limits_deg, zone.limits_deg, equal_nan=True) and repr(copy) == repr(zone)
-    with pytest.raises(condyle.UsageError, match="pickled"):
-        copy.write(tmp_path)
+    refused(lambda: copy.write(tmp_path), "pickled")
 
 
 def test_a_pickled_joint_has_its_implant(hip, zone):
@@ -168,37 +159,23 @@ def test_its_zone_is_noted(hip):
 
 @pytest.mark.parametrize("vary, targets, words", [
     ({"cup.inclinaton": (30, 50, 10)}, TARGETS, 'did you mean "cup.inclination"'),
-    ({"cup.inclination": (30, 95, 5)}, TARGETS, "outside of its range"),
-    ({"cup.inclination": (30, 50, 0)}, TARGETS, "the step must be above 0"),
     ({"cup.inclination": (30, 50)}, TARGETS, "a first and a last value and a step"),
     ({"cup.inclination": (30, "a", 1)}, TARGETS, "a number is needed"),
     ({3: (30, 50, 1)}, TARGETS, "a text is needed"),
     ([1], TARGETS, "parameters by their names"),
     ({}, TARGETS, "one to four parameters"),
-    (VARY, [], "one target or more"),
     (VARY, [("a", "flexoin", 20)], "flexoin"),
     (VARY, [("a", "flexion")], "name, motion and reach_deg"),
     (VARY, [("a", "flexion", "far")], "target a: reach_deg: a number is needed"),
-    (VARY, [("a", "flexion", 200)], "up to the motion's range, 180"),
-    (VARY, [("a", "flexion", 20), ("a", "extension", 20)], "given twice"),
     (VARY, 3, "targets: a path is needed"),
 ])
 def test_what_cannot_be_swept_is_refused(hip, vary, targets, words):
-    with pytest.raises(condyle.UsageError, match=words) as error:
-        hip.sweep(vary, targets)
-    assert "\n" not in str(error.value)
+    refused(lambda: hip.sweep(vary, targets), words)
 
 
 def test_a_wrong_table_is_refused_with_its_line(hip, tmp_path):
     (tmp_path / "daily.csv").write_text("name,motion,reach_deg\na,flexion,far\n")
-    with pytest.raises(condyle.FileError, match="daily.csv: line 2: reach_deg: 'far' is no number"):
-        hip.sweep(VARY, tmp_path / "daily.csv")
-
-
-def test_a_joint_without_parts_is_refused(coarse_bones):
-    joint = condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur)
-    with pytest.raises(condyle.UsageError, match="no part with parameters"):
-        joint.sweep(VARY, TARGETS)
+    refused(lambda: hip.sweep(VARY, tmp_path / "daily.csv"), "daily.csv: line 2: reach_deg: 'far' is no number", condyle.FileError)
 
 
 def test_it_measures_and_loads_each_design_as_the_joint_at_its_values(sampled, tmp_path):
@@ -215,5 +192,4 @@ def test_it_measures_and_loads_each_design_as_the_joint_at_its_values(sampled, t
     assert np.diff(measured) == pytest.approx(10, abs=1e-3)  # a frontal turn adds as much to the edge
     assert zone.here.quantities["measured_" + key] == measured[1]
     assert (zone.quantities["load_max_pressure_mpa"] > 0).any()
-    with pytest.raises(condyle.UsageError, match="there is no measure"):
-        joint.sweep({"pelvis.frontal": (-10, 10, 10)}, [("bent", "flexion", 60)], measures=["edge"])
+    refused(lambda: joint.sweep({"pelvis.frontal": (-10, 10, 10)}, [("bent", "flexion", 60)], measures=["edge"]), "there is no measure")

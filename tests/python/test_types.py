@@ -127,8 +127,7 @@ def words_of(kind: object) -> set[str]:
 
 
 def test_arguments_that_take_words_are_of_literals():
-    lists = [set(typing.get_args(each)) for each in vars(condyle._words).values()
-             if typing.get_origin(each) is typing.Literal]
+    lists = [set(typing.get_args(each)) for each in vars(condyle._words).values() if typing.get_origin(each) is typing.Literal]
     found = []
     for name, value in signatures(condyle):
         for what, kind in hints(value).items():
@@ -164,8 +163,7 @@ REVEALED = ["Penetration", "Penetrations", "list[NormalContact]", "Depths", "lis
             "Union[Literal['contact'], Literal['end_of_range'], Literal['contact_at_start'], Literal['ligament'], Literal['strained_at_start']]", "float"]
 
 
-def test_a_checker_distinguishes_one_pose_from_many_and_finds_a_wrong_word(
-        checked: Callable[[Path], subprocess.CompletedProcess], tmp_path: Path):
+def test_a_checker_distinguishes_one_pose_from_many_and_finds_a_wrong_word(checked: Callable[[Path], subprocess.CompletedProcess], tmp_path: Path):
     (tmp_path / "user.py").write_text(USER)
     said = checked(tmp_path / "user.py").stdout
     revealed = re.findall(r'Revealed type is "(.*)"', said)

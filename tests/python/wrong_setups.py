@@ -80,13 +80,13 @@ def limits(*motions: str) -> Ask:
     return lambda scene: condyle.read_joint(scene.path()).range_of_motion(motions)
 
 
-def study(text: str, **options: Any) -> dict[str, Any]:
-    return {"spoil": lambda scene: scene.file("table.csv", text),
+def study(text: str, more: str = "", **options: Any) -> dict[str, Any]:
+    return {"spoil": lambda scene: scene.file("table.csv", text), "command": "study table.csv --out out --motion flexion" + more,
             "ask": lambda scene: condyle.run_study(scene.path("table.csv"), scene.path("out"), **options)}
 
 
-STUDY = "study table.csv --out out --motion flexion"
 FLEXION = {"motions": ["flexion"]}
+IDENTITY = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
 
 # Loads.
 SOFT = {"youngs_modulus_mpa": 12.0, "poisson_ratio": 0.42, "thickness": 1.5}
@@ -100,8 +100,8 @@ def layers(fixed: dict[str, Any] = SOFT, mobile: dict[str, Any] = SOFT, *, more:
     return changed(more=f"[contact]\n{more}" + table("fixed", fixed) + table("mobile", mobile))
 
 
-def pressed(scene: Scene) -> Any:
-    return contact(scene).at(np.eye(4))
+def pressed(*given: dict[str, Any], more: str = "") -> dict[str, Any]:
+    return {"spoil": layers(*given, more=more), "command": "load hip.toml", "ask": lambda scene: contact(scene).at(np.eye(4))}
 
 
 def contact(scene: Scene) -> condyle.ElasticContact:
@@ -187,11 +187,9 @@ SETUPS: dict[str, Setup] = {
     "LPS for joint axes": Setup(0, "axes_not_upright", axes_named("LPS")),
     "metres": Setup(0, "unlikely_size", line("units", 'units = "m"')),
     "centre 5 mm off": Setup(0, "centre_off_head", centre("5.0")),
-    "centre 10 mm off": Setup(0, "centre_off_head", centre("10.0")),
     "centre 24 mm off": Setup(0, "centre_off_head", centre("24.0")),
     "centre 30 mm off": Setup(0, "centre_off_head", centre("30.0")),
-    "swapped": Setup(0, "swapped_bodies", changed(("hip_bone.ply", "X"), ("femur.ply", "hip_bone.ply"),
-                                                  ("X", "femur.ply"))),
+    "swapped": Setup(0, "swapped_bodies", changed(("hip_bone.ply", "X"), ("femur.ply", "hip_bone.ply"), ("X", "femur.ply"))),
     "mirrored and flipped": Setup(0, "wrong_side", both(mirror=True, flip=True)),
     "mirrored, not flipped": Setup(0, "inverted_mesh", both(mirror=True)),
     "one mirrored": Setup(0, "bodies_disagree", mesh("femur", mirror=True, flip=True)),
@@ -200,13 +198,9 @@ SETUPS: dict[str, Setup] = {
     "inverted mesh": Setup(0, "inverted_mesh", mesh("femur", flip=True)),
     "head larger than its socket": Setup(0, "socket_smaller_than_head", mesh("femur", scale=1.2)),
     # Joint files.
-    "feet": Setup(3, '"mm" or "cm" or "in" or "m", not "ft"', line("units", 'units = "ft"')),
     "Right": Setup(3, '"right" or "left", not "Right"', line("side", 'side = "Right"')),
-    "R": Setup(3, '"right" or "left", not "R"', line("side", 'side = "R"')),
     "ras": Setup(3, '"LPS" or "RAS", not "ras"', axes_named("ras")),
     "axis of length 1.005": Setup(3, "length 1.005, not 1", axes("[1.005, 0.0, 0.0]", "[0.0, 1.0, 0.0]")),
-    "axes 53 degrees off": Setup(3, "not 90 (off by 53", axes("[1.0, 0.0, 0.0]", "[0.8, 0.6, 0.0]")),
-    "version 2": Setup(3, "format version 2", line("condyle", "condyle = 2")),
     "key twice": Setup(3, "redefine existing", line("side", 'side = "right"\nside = "right"')),
     "misspelt table": Setup(3, 'did you mean "frame"?', changed((r"\[frame\]", "[fraem]"))),
     "misspelt key": Setup(3, 'did you mean "centre"?', changed(("centre", "center"))),
@@ -215,7 +209,6 @@ SETUPS: dict[str, Setup] = {
         copied("femur.ply", "femur.json")(scene), scene.joint(("femur.ply", "femur.json")))),
     "label map for a mesh": Setup(3, "--label NAME --out BONE.ply makes one of a label", lambda scene: (
         copied("femur.ply", "femur.nii.gz")(scene), scene.joint(("femur.ply", "femur.nii.gz")))),
-    "free without joint": Setup(3, 'joint: is missing: a free joint needs "hip"', line("kind", 'kind = "free"')),
     "hip as a hinge by name": Setup(3, "a hip is no hinge", line("kind", 'kind = "hinge"\njoint = "hip"')),
     "fit where there is nothing": Setup(4, "no spherical head", changed(
         ("centre = .*", 'centre = "fit"\nfit_within = { centre = [500.0, 0.0, 0.0], radius = 10.0 }'))),
@@ -228,30 +221,25 @@ SETUPS: dict[str, Setup] = {
     "pose that scales": Setup(2, "orthonormal", command="depth hip.toml --pose '2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1'",
                               ask=lambda scene: condyle.read_joint(scene.path()).depths(np.diag([2.0, 2, 2, 1]))),
     "misspelt motion": Setup(2, "flexoin", command="rom hip.toml --motion flexoin", ask=limits("flexoin")),
-    "few samples of a band": Setup(2, "20", command="rom hip.toml --band=3",
-                                   ask=lambda scene: limits("flexion")(scene).bands(samples=3)),
+    "few samples of a band": Setup(2, "20", command="rom hip.toml --band=3", ask=lambda scene: limits("flexion")(scene).bands(samples=3)),
     "map of one angle twice": Setup(
         2, "one is named twice", command="rom hip.toml --map flexion=0:10:5 flexion=0:10:5",
         ask=lambda scene: limits()(scene).map({"flexion": (0, 10, 5)}, {"flexion": (0, 10, 5)})),
     # Loads.
-    "Poisson's ratio 0.5": Setup(3, "below 0.5", layers({**SOFT, "poisson_ratio": 0.5}), "load hip.toml", pressed),
-    "modulus 0": Setup(3, "above 0", layers({**SOFT, "youngs_modulus_mpa": 0.0}), "load hip.toml", pressed),
-    "thickness -1.5": Setup(3, "above 0", layers({**SOFT, "thickness": -1.5}), "load hip.toml", pressed),
-    "reach -3": Setup(3, "above 0", layers(more="reach = -3.0\n"), "load hip.toml", pressed),
-    "unknown law": Setup(3, '"linear" or "logarithmic"', layers(more='law = "cubic"\n'), "load hip.toml", pressed),
-    "no layers": Setup(2, "layer", command="load hip.toml",
-                       ask=lambda scene: condyle.ElasticContact(scene.bones.hip_bone, scene.bones.femur)),
-    "thickness and a file of it": Setup(3, "stands beside thickness_file", layers(
-        {**SOFT, "thickness_file": '"t.txt"'}), "load hip.toml", pressed),
+    "Poisson's ratio 0.5": Setup(3, "below 0.5", **pressed({**SOFT, "poisson_ratio": 0.5})),
+    "modulus 0": Setup(3, "above 0", **pressed({**SOFT, "youngs_modulus_mpa": 0.0})),
+    "thickness -1.5": Setup(3, "above 0", **pressed({**SOFT, "thickness": -1.5})),
+    "reach -3": Setup(3, "above 0", **pressed(more="reach = -3.0\n")),
+    "unknown law": Setup(3, '"linear" or "logarithmic"', **pressed(more='law = "cubic"\n')),
+    "no layers": Setup(2, "layer", command="load hip.toml", ask=lambda scene: condyle.ElasticContact(scene.bones.hip_bone, scene.bones.femur)),
+    "thickness and a file of it": Setup(3, "stands beside thickness_file", **pressed({**SOFT, "thickness_file": '"t.txt"'})),
     "moment without rotations": Setup(
         2, "otation", layers(), "load hip.toml --force 0 800 0 --moment 0 0 10",
         lambda scene: contact(scene).balance([0, 800, 0], moment_nmm=[0, 0, 10])),
     "1500 N out of the socket": Setup(2, "pulls the bodies apart", **load("0 -1500 0"), untrue="over the rim"),
-    "force of two numbers": Setup(2, "force", layers(), "load hip.toml --force 0 800",
-                                  lambda scene: contact(scene).balance([0, 800])),
+    "force of two numbers": Setup(2, "force", layers(), "load hip.toml --force 0 800", lambda scene: contact(scene).balance([0, 800])),
     # Recordings.
-    "column without unit": Setup(3, "unit", **recorded("time,flexion\n0,0\n1,10\n",
-                                                       '[recorded_motion]\nflexion = "flexion"\n')),
+    "column without unit": Setup(3, "unit", **recorded("time,flexion\n0,0\n1,10\n", '[recorded_motion]\nflexion = "flexion"\n')),
     "column that is not there": Setup(3, "flexion", **recorded("time,flex\n0,0\n1,10\n")),
     "short row": Setup(3, "line 3", **recorded("time,flexion\n0,0\n1\n")),
     "semicolons": Setup(3, "separated by commas", **recorded("time;flexion\n0;0\n1;10\n")),
@@ -260,24 +248,9 @@ SETUPS: dict[str, Setup] = {
         "walk\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\ntime\tflexion\n0\t0\n1\t0.1\n",
         name="walk.mot")),
     # Studies.
-    "misspelt measure": Setup(3, "did you mean 'head_radius_mm'?", command=STUDY,
-                              **study("id,sample,haed_radius_mm\na,1,25\n", **FLEXION)),
-    "misspelt units": Setup(3, "did you mean 'units'?", command=STUDY,
-                            **study("id,fixed,mobile,side,unit\na,hip_bone.ply,femur.ply,right,m\n", **FLEXION)),
-    "lps in a table": Setup(3, "'lps' is none of joint, RAS, LPS", command=STUDY, **study(
-        "id,fixed,mobile,side,axes\na,hip_bone.ply,femur.ply,right,lps\n", **FLEXION)),
-    "R in a table": Setup(3, "'R' is none of right, left", command=STUDY, **study(
-        "id,fixed,mobile,side\na,hip_bone.ply,femur.ply,R\n", **FLEXION)),
-    "semicolons in a table": Setup(3, "separated by commas", command=STUDY, **study("id;joint\na;hip.toml\n")),
-    "id twice": Setup(3, "is that of line 2", command=STUDY, **study("id,joint\na,hip.toml\na,hip.toml\n")),
-    "short row of a table": Setup(3, "1 fields where there are 2", command=STUDY, **study("id,joint\na\n")),
-    "no joint answered": Setup(3, "none of 2 joints was answered", command=STUDY, **study(
-        "id,joint\na,nothere.toml\nb,nothere.toml\n", **FLEXION)),
-    "matrix for a study": Setup(
-        2, "no matrix", command=STUDY + " --depth '1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1'",
-        **study("id,joint\na,hip.toml\n", depth_at="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", **FLEXION)),
-    "wrong side in a study": Setup(0, "wrong_side", command=STUDY, **study(
-        "id,fixed,mobile,side\na,hip_bone.ply,femur.ply,left\n", **FLEXION)),
+    "misspelt measure": Setup(3, "did you mean 'head_radius_mm'?", **study("id,sample,haed_radius_mm\na,1,25\n", **FLEXION)),
+    "matrix for a study": Setup(2, "no matrix", **study("id,joint\na,hip.toml\n", f" --depth '{IDENTITY}'", depth_at=IDENTITY, **FLEXION)),
+    "wrong side in a study": Setup(0, "wrong_side", **study("id,fixed,mobile,side\na,hip_bone.ply,femur.ply,left\n", **FLEXION)),
     # Arguments.
     "number after --band": Setup(2, "--band=100", command="rom hip.toml --band 100", ask=None),
     "number after --band, file behind": Setup(2, "--band=100", command="rom --band 100 hip.toml", ask=None),
@@ -285,14 +258,12 @@ SETUPS: dict[str, Setup] = {
         2, "needs two angles", command="rom hip.toml --map flexion=0:10:5",
         ask=lambda scene: condyle.run_study("t.csv", "out", map=({"flexion": (0, 10, 5)},)),  # type: ignore[arg-type]
         says_in_python="two angles are needed"),
-    "map of one angle, file behind": Setup(2, "needs two angles", command="rom --map flexion=0:10:5 hip.toml",
-                                           ask=None),
+    "map of one angle, file behind": Setup(2, "needs two angles", command="rom --map flexion=0:10:5 hip.toml", ask=None),
     "sample knee": Setup(2, "there are hip, cartilages, cohort", command="sample knee --out knee", ask=None),
     "-q": Setup(2, "2>/dev/null", command="depth hip.toml -q", ask=None),
     "misspelt option": Setup(2, 'did you mean "--motion"?', command="rom hip.toml --motoin flexion", ask=None),
     "misspelt command": Setup(2, 'did you mean "depth"?', command="detph hip.toml", ask=None),
-    "one argument too many": Setup(2, "'femur.ply' is one argument too many", command="rom hip.toml femur.ply",
-                                   ask=None),
+    "one argument too many": Setup(2, "'femur.ply' is one argument too many", command="rom hip.toml femur.ply", ask=None),
     "measure that is none": Setup(2, "haed", command="sample hip --haed-radius 24 --out hip",
                                   ask=lambda scene: condyle.sample_hip(haed_radius_mm=24)),
     "measure out of its range": Setup(2, "head_radius_mm", command="sample hip --head-radius 100 --out hip",
@@ -302,13 +273,12 @@ SETUPS: dict[str, Setup] = {
     "hinge on a hip": Setup(0, "unlikely_joint", line("kind", 'kind = "hinge"')),
     "knee on a hip": Setup(0, "unlikely_joint", line("kind", 'kind = "ball"\njoint = "knee"')),
     "same file twice": Setup(0, "same_mesh", changed(("femur.ply", "hip_bone.ply"))),
-    "fit with the wrong unit": Setup(0, "unlikely_size", changed(('units = "mm"', 'units = "m"'),
-                                                        ("centre = .*", 'centre = "fit"'))),
+    "fit with the wrong unit": Setup(0, "unlikely_size", changed(('units = "mm"', 'units = "m"'), ("centre = .*", 'centre = "fit"'))),
     "whole number beyond 2^53": Setup(3, "beyond 2^53", centre("9007199254740993")),
     "centre of 1e17 mm": Setup(3, "rounds the vertices", centre("1e17")),
-    "modulus 1e9": Setup(0, "unlikely_modulus", layers({**SOFT, "youngs_modulus_mpa": 1e9}), "load hip.toml", pressed),
-    "thickness 1500": Setup(0, "unlikely_thickness", layers({**SOFT, "thickness": 1500.0}), "load hip.toml", pressed),
-    "bone as layer": Setup(0, "layer_on_bone", layers({**SOFT, "youngs_modulus_mpa": 17000.0}), "load hip.toml", pressed),
+    "modulus 1e9": Setup(0, "unlikely_modulus", **pressed({**SOFT, "youngs_modulus_mpa": 1e9})),
+    "thickness 1500": Setup(0, "unlikely_thickness", **pressed({**SOFT, "thickness": 1500.0})),
+    "bone as layer": Setup(0, "layer_on_bone", **pressed({**SOFT, "youngs_modulus_mpa": 17000.0})),
     "1e5 N into the socket": Setup(2, "too large", **load("0 1e5 0"), untrue="over the rim"),
     "90 rad": Setup(0, "unlikely_angle", **recorded("time,flexion\n0,0\n1,30\n2,60\n3,90\n", COLUMNS.replace("deg", "rad"))),
     "mm read as m": Setup(0, "unlikely_translation", **translated('unit = "m"', 0, 1, 2)),

@@ -26,8 +26,7 @@ def workflow() -> Path:
 
 def write_box(path: Path, low, high) -> None:
     corners = [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-    faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6),
-             (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+    faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
     lines = [*("v %g %g %g" % corner for corner in corners), *("f %d %d %d" % tuple(v + 1 for v in f) for f in faces)]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
@@ -53,8 +52,7 @@ def cohort(tmp_path_factory) -> Path:
 def whole(cohort: Path, command: str, tmp_path_factory) -> Path:
     """The study without shards."""
     folder = tmp_path_factory.mktemp("whole")
-    done = subprocess.run([command, "study", cohort, "--out", folder, OPTIONS], check=True, capture_output=True,
-                          text=True)
+    done = subprocess.run([command, "study", cohort, "--out", folder, OPTIONS], check=True, capture_output=True, text=True)
     assert done.stdout == f"{JOINTS - 1} answered, 1 failed\n"
     return folder
 
@@ -74,6 +72,12 @@ exec '{command}' "$@"
 """, encoding="utf-8")
     script.chmod(0o755)
     return script
+
+
+def snakemake(snakefile: Path, folder: Path, **config: object) -> "subprocess.CompletedProcess[str]":
+    """Shards on this machine, each in one thread."""
+    return subprocess.run(["snakemake", "--snakefile", snakefile, "--profile", snakefile.parent / "profiles/local", "-j2", "--config",
+                           *(f"{name}={value}" for name, value in config.items()), "threads=1"], cwd=folder, capture_output=True, text=True)
 
 
 def assert_same_tables(folder: Path, whole: Path) -> None:

@@ -38,8 +38,7 @@ class OneNodeSlurm:
         self.folder = folder
         self.user = subprocess.run(["id", "-un"], check=True, capture_output=True, text=True).stdout.strip()
         self.daemons: Dict[str, "subprocess.Popen[bytes]"] = {}
-        self.environment = {**os.environ, "PATH": os.environ["PATH"] + ":/usr/sbin:/sbin",
-                            "SLURM_CONF": str(folder / "slurm.conf")}
+        self.environment = {**os.environ, "PATH": os.environ["PATH"] + ":/usr/sbin:/sbin", "SLURM_CONF": str(folder / "slurm.conf")}
 
     def __enter__(self) -> "OneNodeSlurm":
         # munged wants a folder that others may pass through but not write to.
@@ -113,8 +112,7 @@ PartitionName=main Nodes=n1 Default=YES MaxTime=INFINITE State=UP
 
     def start_node(self) -> None:
         self.start("slurmd", "-D", "-N", "n1", "-f", self.environment["SLURM_CONF"])
-        wait_for("the node", lambda: self.run("sinfo", "--noheader", "--format=%t").strip() in ("idle", "mix", "alloc"),
-                 60)
+        wait_for("the node", lambda: self.run("sinfo", "--noheader", "--format=%t").strip() in ("idle", "mix", "alloc"), 60)
 
     def lose_node(self) -> None:
         """Ends the daemon and all that runs below it at once, as a power cut does."""

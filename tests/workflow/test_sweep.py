@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from conftest import snakemake
+
 pytestmark = pytest.mark.skipif(shutil.which("snakemake") is None, reason="no snakemake: shards under it not tried")
 
 SHARDS = 3
@@ -17,8 +19,7 @@ FILES = ("sweep.json", "designs.csv", "safe.csv", "zone.vtp")
 def joint(command: str, tmp_path: Path) -> Path:
     subprocess.run([command, "sample", "replacement", "--bones", "none", "--facets", "120", "--out", tmp_path / "thr"], check=True,
                    capture_output=True)
-    (tmp_path / "daily.csv").write_text("name,motion,reach_deg\nsitting,flexion,110\npivoting,external_rotation,40\n",
-                                        encoding="utf-8")
+    (tmp_path / "daily.csv").write_text("name,motion,reach_deg\nsitting,flexion,110\npivoting,external_rotation,40\n", encoding="utf-8")
     return tmp_path / "thr/hip.toml"
 
 
@@ -27,10 +28,8 @@ def test_shards_merge_to_one_run(workflow, joint, command, killed_once, tmp_path
     subprocess.run([command, "--threads", "1", "sweep", joint, "--vary", VARY, "--targets", targets, "--out", tmp_path / "whole",
                     "--band=20"], check=True, capture_output=True)
     for says in ("", "Nothing to be done"):
-        ran = subprocess.run(
-            ["snakemake", "--snakefile", workflow / "sweep.smk", "--profile", workflow / "profiles/local", "-j2", "--config",
-             f"joint={joint}", f"vary={VARY}", f"targets={targets}", f"out={out}", f"shards={SHARDS}", "options=--band=20",
-             f"condyle={killed_once}", "threads=1"], cwd=tmp_path, capture_output=True, text=True)
+        ran = snakemake(workflow / "sweep.smk", tmp_path, joint=joint, vary=VARY, targets=targets, out=out, shards=SHARDS,
+                        options="--band=20", condyle=killed_once)
         assert ran.returncode == 0 and says in ran.stderr, ran.stderr
     assert (tmp_path / "was_killed").is_dir()
     for name in FILES:

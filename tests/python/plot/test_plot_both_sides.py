@@ -1,7 +1,9 @@
 """Each motion has a bar of each side, below each other, and how much further the left side turns in figures."""
 import matplotlib.pyplot as plt
 import pytest
-from test_plot_limits import BAND, bars, closed, lines, motion, texts  # noqa: F401
+from common import refused
+from drawn import are_tidy, of, texts
+from test_plot_limits import BAND, motion
 
 import condyle.plot as figures
 from condyle.plot.both_sides import difference_text
@@ -21,7 +23,7 @@ def middle(bar):
 
 def test_motions_are_matched_by_name_and_the_left_bar_stands_above_the_right_one():
     ax = figures.both_sides(LEFT, RIGHT)
-    drawn = sorted(bars(ax, "limit"), key=middle)
+    drawn = sorted(of(ax, "limit"), key=middle)
     assert [bar.get_width() for bar in drawn] == [127.25, 102.0, 30.5, 35.9, 90.0, 80.0, 20.0, 15.0]
     assert [label.get_text() for label in ax.get_yticklabels(minor=True)] == ["left", "right"] * 4
     assert list(ax.get_yticks(minor=True)) == pytest.approx([middle(bar) for bar in drawn])
@@ -35,23 +37,23 @@ def test_motions_are_matched_by_name_and_the_left_bar_stands_above_the_right_one
 def test_a_motion_that_one_side_lacks_has_one_bar_where_that_side_has_its_bars():
     """The right bar of a motion is as far below its middle wherever there is a left one."""
     ax = figures.both_sides(LEFT, RIGHT)
-    drawn = {bar.get_width(): middle(bar) for bar in bars(ax, "limit")}
+    drawn = {bar.get_width(): middle(bar) for bar in of(ax, "limit")}
     flexion, _, _, only_left, only_right = ax.get_yticks()
     assert only_left - drawn[20.0] == pytest.approx(flexion - drawn[127.25]) and only_right - drawn[15.0] == pytest.approx(flexion - drawn[102.0])
 
 
 def test_sides_stay_apart_without_colour():
     ax = figures.both_sides(LEFT, RIGHT)
-    white = {bar.get_width(): bar.get_facecolor() == (1, 1, 1, 1) and bar.get_linewidth() > 0 for bar in bars(ax, "limit")}
+    white = {bar.get_width(): bar.get_facecolor() == (1, 1, 1, 1) and bar.get_linewidth() > 0 for bar in of(ax, "limit")}
     assert white == {127.25: False, 30.5: False, 90.0: False, 20.0: False, 102.0: True, 35.9: True, 80.0: True, 15.0: True}
-    assert {bar.get_edgecolor()[:3] for bar in bars(ax, "limit")} >= {bar.get_facecolor()[:3] for bar in bars(figures.limits(LEFT), "limit")}
+    assert {bar.get_edgecolor()[:3] for bar in of(ax, "limit")} >= {bar.get_facecolor()[:3] for bar in of(figures.limits(LEFT), "limit")}
 
 
 def test_marks_bands_and_values_are_those_of_limits():
     ax = figures.both_sides(LEFT, RIGHT)
-    assert {line.get_xdata()[0]: line.get_marker() for line in lines(ax, "end")} == {
+    assert {line.get_xdata()[0]: line.get_marker() for line in of(ax, "end")} == {
         127.25: "o", 30.5: "o", 90.0: ">", 20.0: "s", 102.0: "o", 35.9: "o", 80.0: "o", 15.0: "D"}
-    assert [line.get_xdata()[0] for line in lines(ax, "bearing_contact")] == [12.0]
+    assert [line.get_xdata()[0] for line in of(ax, "bearing_contact")] == [12.0]
     (whisker,) = [c for c in ax.containers if hasattr(c, "has_xerr")]
     assert whisker.lines[2][0].get_segments()[0][:, 0] == pytest.approx([120.5, 131.5])
     assert texts(ax, "value") == ["127.2° (120–132)", "102.0°", "30.5°", "35.9°", ">90°", "80.0°", "20.0°", "15.0°"]
@@ -59,14 +61,14 @@ def test_marks_bands_and_values_are_those_of_limits():
 
 def test_a_clinical_range_stands_once_behind_both_and_behind_one_if_the_other_has_none():
     ax = figures.both_sides(LEFT, RIGHT)
-    (normal,) = bars(ax, "normal_range")
-    drawn = bars(ax, "limit")[:2]
+    (normal,) = of(ax, "normal_range")
+    drawn = of(ax, "limit")[:2]
     assert normal.get_width() == 120 and normal.get_zorder() < drawn[0].get_zorder()
     assert normal.get_y() < drawn[0].get_y() and normal.get_y() + normal.get_height() > drawn[1].get_y() + drawn[1].get_height()
     without = {"motions": [motion("flexion", 127.25)]}
     ax = figures.both_sides(without, {**RIGHT, "motions": RIGHT["motions"][3:]})
-    (normal,) = bars(ax, "normal_range")
-    left, right = bars(ax, "limit")
+    (normal,) = of(ax, "normal_range")
+    left, right = of(ax, "limit")
     assert left.get_y() + left.get_height() < normal.get_y() < right.get_y()
     for sides in ((LEFT, RIGHT), (without, RIGHT), (RIGHT, without)):
         assert [text.get_text() for text in figures.both_sides(*sides).get_legend().get_texts()].count("clinical range (AAOS 1965)") == 1
@@ -77,7 +79,7 @@ def test_differences_are_of_the_limits_and_bounds_where_a_side_ends_without_cont
     assert texts(ax, "difference") == ["+25.2°", "−5.4°", ">+10.0°", "–", "–"] and texts(ax, "heading") == ["left − right"]
 
     def difference(left, right):
-        return difference_text(*(motion_ends({"motions": [motion("flexion", *of)]})[0] for of in (left, right)))
+        return difference_text(*(motion_ends({"motions": [motion("flexion", *side)]})[0] for side in (left, right)))
 
     open_end = ("end_of_range", None)
     assert difference((80.0,), (90.0, *open_end)) == "<−10.0°"
@@ -115,15 +117,9 @@ def test_words_are_on_the_paper_and_none_stands_on_another():
         boxes = [(text.get_text(), text.get_window_extent()) for text in shown]
         columns = {gid: [text.get_window_extent() for text in ax.texts if text.get_gid() == gid] for gid in ("value", "difference", "heading")}
         assert max(box.x1 for box in columns["value"]) < min(box.x0 for box in columns["difference"] + columns["heading"])
-        for i, (text, box) in enumerate(boxes):
-            page = ax.figure.bbox.padded(0.5)
-            assert box.x0 >= page.x0 and box.y0 >= page.y0 and box.x1 <= page.x1 and box.y1 <= page.y1, text
-            for other, over in boxes[:i]:
-                across, down = min(box.x1, over.x1) - max(box.x0, over.x0), min(box.y1, over.y1) - max(box.y0, over.y0)
-                assert across < 0.5 or down < 0.25 * min(box.height, over.height), f"{text!r} and {other!r}"
+        assert are_tidy(boxes, ax.figure.bbox.padded(0.5))
 
 
 def test_a_side_without_motions_is_refused_and_leaves_no_figure():
-    with pytest.raises(ValueError, match="no motions"):
-        figures.both_sides(LEFT, {"motions": []})
+    refused(lambda: figures.both_sides(LEFT, {"motions": []}), "no motions", ValueError)
     assert not plt.get_fignums()

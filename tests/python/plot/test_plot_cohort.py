@@ -1,17 +1,12 @@
 """Spreads of limits over a cohort stand where the numbers are."""
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from common import refused
+from drawn import legend_of, of
 
 import condyle
 import condyle.plot as figures
 from condyle.plot.cohort import running_band
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture()
@@ -28,15 +23,11 @@ def table():
     }
 
 
-def of(ax, gid):
-    return [line for line in ax.lines if line.get_gid() == gid]
-
-
 def test_bands_are_percentiles_of_each_motion(table):
     ax = figures.limit_distributions(table)
     assert [line.get_xdata().tolist() for line in of(ax, "band")] == [[105, 195], [52.5, 97.5]]
     assert [line.get_xdata().tolist() for line in of(ax, "median")] == [[150], [75]]
-    boxes = [patch for patch in ax.patches if patch.get_gid() == "quartiles"]
+    boxes = of(ax, "quartiles")
     assert [(box.get_x(), box.get_width()) for box in boxes] == [(125, 50), (62.5, 25)]
     assert len(of(ax, "without_contact")) == 1
     assert [label.get_text() for label in ax.get_yticklabels()] == ["Flexion", "FADIR"]
@@ -47,7 +38,7 @@ def test_groups_stand_below_each_other_in_the_order_of_their_values(table):
     medians = of(ax, "median")
     assert [line.get_xdata()[0] for line in medians] == [150, 150]
     assert medians[0].get_ydata()[0] < 0 < medians[1].get_ydata()[0]
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["sex f", "sex m"]
+    assert legend_of(ax) == ["sex f", "sex m"]
 
 
 def test_an_arrow_for_what_ended_without_contact_stands_beside_the_median_and_is_explained():
@@ -57,7 +48,7 @@ def test_an_arrow_for_what_ended_without_contact_stands_beside_the_median_and_is
     (arrow,), (median,) = of(ax, "without_contact"), of(ax, "median")
     places = [line.get_transform().transform(line.get_xydata())[0] for line in (arrow, median)]
     assert places[0][0] - places[1][0] == pytest.approx(4.5 * ax.figure.dpi / 72) and not (arrow.get_clip_on() or median.get_clip_on())
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["some: no contact in the range"]
+    assert legend_of(ax) == ["some: no contact in the range"]
     assert figures.limit_against(table, "alpha_deg", "faber").get_xlabel() == "alpha (°)"
 
 
@@ -79,14 +70,10 @@ def test_a_running_band_has_parts_of_equally_many():
 
 def test_what_is_not_there_is_named(table):
     for column in ("nothere", "sex"):
-        with pytest.raises(ValueError, match=f"'{column}'"):
-            figures.limit_against(table, column, "flexion")
-    with pytest.raises(ValueError, match="no motion 'faber'"):
-        figures.limit_distributions(table, motions=["faber"])
-    with pytest.raises(ValueError, match="no motion 'faber'"):
-        figures.limit_against(table, "alpha_deg", "faber")
-    with pytest.raises(ValueError, match="101 values: at most 7 groups"):
-        figures.limit_distributions(table, by="alpha_deg")
+        refused(lambda: figures.limit_against(table, column, "flexion"), f"'{column}'", ValueError)
+    refused(lambda: figures.limit_distributions(table, motions=["faber"]), "no motion 'faber'", ValueError)
+    refused(lambda: figures.limit_against(table, "alpha_deg", "faber"), "no motion 'faber'", ValueError)
+    refused(lambda: figures.limit_distributions(table, by="alpha_deg"), "101 values: at most 7 groups", ValueError)
 
 
 def test_a_dataframe_will_do(table):

@@ -5,18 +5,15 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from common import refused
+from drawn import of
 from matplotlib.figure import Figure
 from test_plot_outliers import among, study_of
 
 import condyle.plot as figures
 from condyle.plot.limit_bars import ENDS
 
-
 module = sys.modules["condyle.plot.contact_sheet"]  # its function has the same name
-
-
-def of(ax, gid):
-    return [artist for artist in (*ax.lines, *ax.patches, *ax.texts, *ax.collections) if artist.get_gid() == gid]
 
 
 def texts_of(page):
@@ -99,8 +96,7 @@ def test_joints_go_on_on_the_next_page_and_texts_stay_on_it(monkeypatch):
 
 def test_more_joints_than_anybody_looks_through_are_refused(monkeypatch):
     monkeypatch.setattr(module, "MOST_JOINTS", 3)
-    with pytest.raises(ValueError, match="4 joints: at most 3 stand on contact sheets"):
-        figures.contact_sheet(study_of({"flexion": [1.0] * 4}))
+    refused(lambda: figures.contact_sheet(study_of({"flexion": [1.0] * 4})), "4 joints: at most 3 stand on contact sheets", ValueError)
 
 
 def test_pages_are_one_pdf_and_the_same_bytes_again(tmp_path):
@@ -113,5 +109,4 @@ def test_pages_are_one_pdf_and_the_same_bytes_again(tmp_path):
     figures.save([page, page], tmp_path / "c.png")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.pdf", "b.pdf", "c-2.png", "c.png"]
     assert all((tmp_path / name).read_bytes().startswith(b"\x89PNG") for name in ("c.png", "c-2.png"))
-    with pytest.raises(ValueError, match="c.gif: figures are written as .pdf, .svg or .png"):
-        figures.save([page], tmp_path / "c.gif")
+    refused(lambda: figures.save([page], tmp_path / "c.gif"), "c.gif: figures are written as .pdf, .svg or .png", ValueError)

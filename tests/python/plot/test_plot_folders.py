@@ -8,26 +8,17 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from common import refused, run_command
 
 import condyle.plot as figures
 from condyle.plot.__main__ import main
 from condyle.plot.folder import drawings
 
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
-
-
 MAP = {"vary": "internal_rotation", "vary_opposite": "external_rotation", "start_deg": 0,
-       "columns": {"angle": "flexion", "opposite": "extension", "first_deg": 0, "last_deg": 20, "step_deg": 10,
-                   "count": 3},
-       "rows": {"angle": "adduction", "opposite": "abduction", "first_deg": -5, "last_deg": 5, "step_deg": 10,
-                "count": 2}}
+       "columns": {"angle": "flexion", "opposite": "extension", "first_deg": 0, "last_deg": 20, "step_deg": 10, "count": 3},
+       "rows": {"angle": "adduction", "opposite": "abduction", "first_deg": -5, "last_deg": 5, "step_deg": 10, "count": 2}}
 INTERVALS = """\
 # a comment
 flexion_deg,adduction_deg,internal_rotation_low_deg,internal_rotation_high_deg,holds_start,low_reason,high_reason
@@ -43,8 +34,7 @@ flexion_deg,adduction_deg,internal_rotation_low_deg,internal_rotation_high_deg,h
 
 def rom_folder(folder: Path, **changes: object) -> Path:
     folder.mkdir(exist_ok=True)
-    motion = {"name": "flexion", "limit_deg": 100.0, "reason": "contact", "contact_kind": "impingement",
-              "clock_hour": 2.0}
+    motion = {"name": "flexion", "limit_deg": 100.0, "reason": "contact", "contact_kind": "impingement", "clock_hour": 2.0}
     (folder / "rom.json").write_text(json.dumps({"condyle": 1, "motions": [motion], **changes}))
     return folder
 
@@ -69,6 +59,12 @@ def run(*arguments: object) -> SimpleNamespace:
         except SystemExit as exit:
             code = int(exit.code or 0)
     return SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=error.getvalue())
+
+
+def is_refused(ran: SimpleNamespace, code: int, words: str, of: object = "") -> bool:
+    """In one line that begins with the file, and nothing is said beside it."""
+    assert (ran.returncode, ran.stdout, ran.stderr.count("\n")) == (code, "", 1), ran.stderr
+    return ran.stderr.startswith(f"condyle: {of}") and words in ran.stderr
 
 
 def run_alone(*arguments: object) -> "subprocess.CompletedProcess[str]":
@@ -132,9 +128,9 @@ def test_limits_of_a_map_do_not_replace_those_with_bands(tmp_path):
     assert {path.stem for path in (tmp_path / "figures").iterdir()} >= {"limit_bands", "limits"}
 
 
-def test_the_command_removes_figures_of_what_it_replaces(tmp_path, command, coarse_hip_file):
+def test_the_command_removes_figures_of_what_it_replaces(tmp_path, coarse_hip_file):
     def answered(*arguments: object) -> None:
-        subprocess.run([command, *map(str, arguments), "--out", str(tmp_path / "out")], check=True, capture_output=True)
+        run_command(*map(str, arguments), "--out", tmp_path / "out")
 
     pytest.importorskip("vtkmodules")
     (tmp_path / "swing.csv").write_text("time,flexion_deg\n0,0\n1,140\n")
@@ -168,12 +164,9 @@ def test_the_same_figure_is_the_same_file(tmp_path):
         assert (folder / f"limits.{format}").read_bytes() == first
 
 
-@pytest.mark.parametrize("arguments", [[], ["a", "b"], ["a", "--format", "jpg"], ["a", "--frames", "x"],
-                                       ["a", "--colour", "red"]])
+@pytest.mark.parametrize("arguments", [[], ["a", "b"], ["a", "--format", "jpg"], ["a", "--frames", "x"], ["a", "--colour", "red"]])
 def test_wrong_usage_is_one_line_and_2(arguments):
-    ran = run(*arguments)
-    assert ran.returncode == 2 and ran.stdout == ""
-    assert ran.stderr.startswith("condyle: ") and ran.stderr.count("\n") == 1
+    assert is_refused(run(*arguments), 2, "")
 
 
 def test_help_has_examples():
@@ -199,18 +192,15 @@ BAD = {
     "no_motions": ("rom.json", '{"condyle": 1}', "rom.json: no motions"),
     "no_reason": ("rom.json", NO_REASON, "rom.json: motion 0 has no 'reason'"),
     "no_grid": ("rom.json", rom_text(map={}), "rom.json: map: no 'columns'"),
-    "columns_of_text": ("rom.json", rom_text(map={"columns": {"count": "3"}, "rows": {}}),
-                        "rom.json: map: columns: 'count' is not a number"),
+    "columns_of_text": ("rom.json", rom_text(map={"columns": {"count": "3"}, "rows": {}}), "rom.json: map: columns: 'count' is not a number"),
     "a_limit_of_text": ("rom.json", rom_text(limit_deg="far"), "rom.json: motion 0: 'limit_deg' is not a number"),
     "a_limit_of_nothing": ("rom.json", rom_text(limit_deg=None), "rom.json: motion 0: 'limit_deg' is not a number"),
     "a_reason_of_no_kind": ("rom.json", rom_text(reason="tired"), "rom.json: motion 0: 'reason' is none of"),
     "an_hour_of_text": ("rom.json", rom_text(clock_hour="two"), "rom.json: motion 0: 'clock_hour' is not a number"),
     "a_band_of_text": ("rom.json", rom_text(band={"p5_deg": "1"}), "rom.json: motion 0: band: 'p5_deg' is not"),
     "short_row": ("map_intervals.csv", INTERVALS + "1,2\n", "map_intervals.csv: line 10: 2 fields, not 7"),
-    "no_number": ("map_intervals.csv", INTERVALS.replace("-30,40", "-30,x"),
-                  "line 3: column 'internal_rotation_high_deg': 'x'"),
-    "off_the_grid": ("map_intervals.csv", INTERVALS.replace("0,-5,-30", "1,-5,-30", 1),
-                     "line 3: column 'flexion_deg': 1 is not"),
+    "no_number": ("map_intervals.csv", INTERVALS.replace("-30,40", "-30,x"), "line 3: column 'internal_rotation_high_deg': 'x'"),
+    "off_the_grid": ("map_intervals.csv", INTERVALS.replace("0,-5,-30", "1,-5,-30", 1), "line 3: column 'flexion_deg': 1 is not"),
     "no_header": ("map_intervals.csv", "# nothing\n", "map_intervals.csv: no rows"),
     "no_column": ("map_intervals.csv", "a,b,c,d\n1,2,3,4\n", "map_intervals.csv: no column 'low_reason'"),
 }
@@ -220,11 +210,7 @@ BAD = {
 def test_a_bad_file_is_one_line_and_3_and_nothing_is_written(tmp_path, name):
     file, text, words = BAD[name]
     folder = damaged(tmp_path / "in", file, text)
-    ran = run(folder, "--out", tmp_path / "out")
-    assert ran.returncode == 3, ran.stderr
-    assert ran.stderr.startswith("condyle: ") and ran.stderr.count("\n") == 1
-    assert words in ran.stderr
-    assert not (tmp_path / "out").exists()
+    assert is_refused(run(folder, "--out", tmp_path / "out"), 3, words) and not (tmp_path / "out").exists()
 
 
 def test_limits_beside_a_map_that_is_free_nowhere_are_drawn(tmp_path):
@@ -236,18 +222,14 @@ def test_limits_beside_a_map_that_is_free_nowhere_are_drawn(tmp_path):
 
 def test_folders_without_results_are_refused(tmp_path):
     for folder, words in ((tmp_path, "neither rom.json nor curves.csv nor sweep.json nor measures.json"), (tmp_path / "none", "not a folder")):
-        ran = run(folder)
-        assert (ran.returncode, ran.stdout) == (3, "")
-        assert words in ran.stderr
+        assert is_refused(run(folder), 3, words)
     missing = map_folder(tmp_path / "map")
     (missing / "map_intervals.csv").unlink()
-    ran = run(missing)
-    assert ran.returncode == 3 and "map_intervals.csv: No such file" in ran.stderr
+    assert is_refused(run(missing), 3, "map_intervals.csv: No such file")
 
 
 def test_frames_without_maps_are_refused(tmp_path):
-    ran = run(motion_folder(tmp_path), "--frames", 0)
-    assert ran.returncode == 3 and "--maps" in ran.stderr
+    assert is_refused(run(motion_folder(tmp_path), "--frames", 0), 3, "--maps")
 
 
 def test_a_damaged_surface_is_refused(tmp_path):
@@ -255,24 +237,20 @@ def test_a_damaged_surface_is_refused(tmp_path):
     folder = motion_folder(tmp_path)
     (folder / "map_fixed.vtp").write_text("")
     (folder / "map_mobile_00000.vtp").write_text("<VTKFile")
-    ran = run_alone(folder)  # VTK has ways of its own to print
-    assert ran.returncode == 3 and ran.stderr.count("\n") == 1, ran.stderr
-    assert "map_mobile_00000.vtp: not a VTP file" in ran.stderr
+    assert is_refused(run_alone(folder), 3, "map_mobile_00000.vtp: not a VTP file")  # VTK has ways of its own to print
 
 
 def test_figures_can_be_saved_by_the_ending_of_the_name(tmp_path):
     ax = figures.limits(figures.files.read_rom(rom_folder(tmp_path)))
     figures.save(ax, tmp_path / "a.PDF")
     assert (tmp_path / "a.PDF").read_bytes().startswith(b"%PDF")
-    with pytest.raises(ValueError, match="a.gif: figures are written as"):
-        figures.save(ax, tmp_path / "a.gif")
+    refused(lambda: figures.save(ax, tmp_path / "a.gif"), "a.gif: figures are written as", ValueError)
 
 
-def test_what_the_command_writes_is_read(tmp_path, command, hip_file):
+def test_what_the_command_writes_is_read(tmp_path, hip_file):
     """The writer is C++, the reader Python: a key that one of them renames is detected here."""
-    arguments = [hip_file, "--motion", "flexion", "--map", "flexion=90:110:10", "adduction=0:20:10", "--band=20",
-                 "--out", tmp_path]
-    subprocess.run([command, "rom", *arguments], check=True, capture_output=True)
+    arguments = [hip_file, "--motion", "flexion", "--map", "flexion=90:110:10", "adduction=0:20:10", "--band=20", "--out", tmp_path]
+    run_command("rom", *arguments)
     result = figures.files.read_rom(tmp_path)
     limit = result["motions"][0]
     assert (limit["normal_range_deg"], result["normal_range_source"]) == (120, "AAOS 1965")

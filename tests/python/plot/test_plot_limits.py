@@ -5,6 +5,8 @@ from types import SimpleNamespace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from common import refused
+from drawn import are_apart, are_on, legend_of, of, texts
 
 import condyle.plot as figures
 from condyle.plot.rim_clock import clock_text, names_fit, spread_apart
@@ -28,27 +30,9 @@ RESULT = {
 }
 
 
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
-
-
-def bars(ax, gid):
-    return [patch for patch in ax.patches if patch.get_gid() == gid]
-
-
-def lines(ax, gid):
-    return [line for line in ax.lines if line.get_gid() == gid]
-
-
-def texts(ax, gid):
-    return [text.get_text() for text in ax.texts if text.get_gid() == gid]
-
-
 def test_bars_are_as_long_as_the_limits_from_the_top():
     ax = figures.limits(RESULT)
-    drawn = bars(ax, "limit")
+    drawn = of(ax, "limit")
     assert [bar.get_width() for bar in drawn] == [127.25, 30.5, 90.0, 0.0, 20.0]
     assert [bar.get_x() for bar in drawn] == [0] * 5
     heights = [ax.transData.transform((0, bar.get_y()))[1] for bar in drawn]
@@ -59,17 +43,17 @@ def test_bars_are_as_long_as_the_limits_from_the_top():
 
 def test_clinical_ranges_stand_behind_where_a_source_has_one():
     ax = figures.limits(RESULT)
-    (normal,) = bars(ax, "normal_range")
+    (normal,) = of(ax, "normal_range")
     assert normal.get_width() == 120
-    assert normal.get_zorder() < bars(ax, "limit")[0].get_zorder()
+    assert normal.get_zorder() < of(ax, "limit")[0].get_zorder()
     assert "AAOS 1965" in "".join(text.get_text() for text in ax.get_legend().get_texts())
-    assert not bars(figures.limits(RESULT, normal_ranges=False), "normal_range")
+    assert not of(figures.limits(RESULT, normal_ranges=False), "normal_range")
 
 
 def test_fadir_and_faber_are_said_to_be_as_defined_here():
     def said(*names):
         ax = figures.limits({"motions": [motion(name, 20.0) for name in names]})
-        return [text.get_text() for text in ax.get_legend().get_texts()]
+        return legend_of(ax)
 
     assert "FADIR, FABER: as defined here" in said("flexion", "faber")
     assert "FADIR, FABER: as defined here" not in said("flexion")
@@ -80,7 +64,7 @@ def test_a_dagger_marks_what_soft_tissue_usually_ends_and_the_scope_stands_below
     ax = figures.limits({"motions": [motion("extension", 72.8, caveats=caveats), motion("flexion", 120.0)],
                          "scope": "osseous contact of the meshes given; soft tissue is not modelled"})
     assert [label.get_text() for label in ax.get_yticklabels()] == ["Extension †", "Flexion"]
-    assert "† soft tissue usually ends it first" in [text.get_text() for text in ax.get_legend().get_texts()]
+    assert "† soft tissue usually ends it first" in legend_of(ax)
     assert ax.get_xlabel().splitlines()[1] == "osseous contact of the meshes given"
     without = figures.limits({"motions": [motion("flexion", 120.0)]})
     assert "†" not in "".join(text.get_text() for text in without.get_legend().get_texts())
@@ -107,15 +91,14 @@ def test_a_band_that_the_range_cuts_off_is_open_and_quoted_as_the_command_does()
 
     def drawn(*motions):
         ax = figures.limits({"motions": motions})
-        said = [text.get_text() for text in ax.get_legend().get_texts()]
-        opened = [line.get_xdata()[0] for line in lines(ax, "open_band")]
+        said = legend_of(ax)
+        opened = [line.get_xdata()[0] for line in of(ax, "open_band")]
         assert ("band beyond the range" in said) == bool(opened)
         return texts(ax, "value"), opened
 
     assert drawn(ended(119.99, 0.88)) == ([">120° (88–120)"], [119.99])
     assert drawn(ended(119.99, 0.06, "contact")) == (["110.0° (88–120)"], [119.99])
-    assert drawn(ended(119.0, 0.05), ended(120.0, 0.05), ended(118.0, 0.5)) == (
-        [">120° (88–119)", ">120° (88–120)", ">120° (88–118)"], [])
+    assert drawn(ended(119.0, 0.05), ended(120.0, 0.05), ended(118.0, 0.5)) == ([">120° (88–119)", ">120° (88–120)", ">120° (88–118)"], [])
     said = ended(120.0, 0.88)
     said["band"]["text"] = "88–>120"
     assert drawn(said) == ([">120° (88–>120)"], [120.0])
@@ -124,15 +107,15 @@ def test_a_band_that_the_range_cuts_off_is_open_and_quoted_as_the_command_does()
     assert texts(ax, "value") == [">120°"] and not ax.containers[1:], "as a whole beyond: no whisker"
     followed = motion("flexion", 8.0, "end_of_range", translation_ends=True)
     ax = figures.limits({"motions": [followed]})
-    assert texts(ax, "value") == ["8.0°"] and "no contact, translation ends" in [text.get_text() for text in ax.get_legend().get_texts()]
+    assert texts(ax, "value") == ["8.0°"] and "no contact, translation ends" in legend_of(ax)
 
 
 def test_what_ended_a_motion_has_a_shape_of_its_own():
     ax = figures.limits(RESULT)
-    ends = lines(ax, "end")
+    ends = of(ax, "end")
     assert [line.get_xdata()[0] for line in ends] == [127.25, 30.5, 90.0, 0.0, 20.0]
     assert [line.get_marker() for line in ends] == ["o", "o", ">", "X", "D"]
-    (bearing,) = lines(ax, "bearing_contact")
+    (bearing,) = of(ax, "bearing_contact")
     assert (bearing.get_xdata()[0], bearing.get_marker()) == (12.0, "D")
     assert texts(ax, "value")[2:4] == [">90°", "0.0°"]
 
@@ -164,26 +147,17 @@ def test_own_figures_are_as_wide_as_a_column_in_8_point_without_a_heading():
 
 
 def test_nothing_to_draw_is_said_and_leaves_no_figure():
-    with pytest.raises(ValueError, match="no motions"):
-        figures.limits({"motions": []})
+    refused(lambda: figures.limits({"motions": []}), "no motions", ValueError)
     assert not plt.get_fignums()
 
 
 def test_all_words_are_on_the_paper():
     scoped = {**RESULT, "scope": "contact of the bones, cartilages and labrum given; other tissue is not modelled"}
     scoped["motions"] = [{**each, "caveats": [{"code": "soft_tissue_ends"}]} for each in RESULT["motions"]]
-    drawn = (figures.limits(RESULT), figures.clock_face(RESULT), figures.limits(scoped), figures.clock_face(scoped))
-    for ax in drawn:
-        figure = ax.figure
-        figure.canvas.draw()
-        page = figure.bbox
+    for ax in (draw(result) for result in (RESULT, scoped) for draw in (figures.limits, figures.clock_face)):
+        ax.figure.canvas.draw()
         of_axes = [*ax.get_yticklabels(), ax.xaxis.label] if ax.axison else []
-        words = [*ax.texts, *of_axes, *(ax.get_legend().get_texts() if ax.get_legend() else [])]
-        for text in words:
-            if text.get_text() and text.get_visible():
-                extent = text.get_window_extent(figure.canvas.get_renderer())
-                assert extent.x0 >= -0.5 and extent.x1 <= page.x1 + 0.5, text.get_text()
-                assert extent.y0 >= -0.5 and extent.y1 <= page.y1 + 0.5, text.get_text()
+        assert are_on(ax.figure.bbox, [*ax.texts, *of_axes, *(ax.get_legend().get_texts() if ax.get_legend() else [])])
 
 
 def test_labels_of_many_contacts_get_smaller_and_do_not_overlap():
@@ -200,21 +174,20 @@ def test_labels_of_many_contacts_get_smaller_and_do_not_overlap():
 
 def test_the_clock_has_twelve_on_top_and_three_at_the_right():
     ax = figures.clock_face(RESULT)
-    at = [(line.get_xdata()[0], line.get_ydata()[0]) for line in lines(ax, "end")]
+    at = [(line.get_xdata()[0], line.get_ydata()[0]) for line in of(ax, "end")]
     half = math.sqrt(0.5)
     assert np.allclose(at, [(half, half), (1, 0), (-half, -half)], atol=1e-15)
-    assert [line.get_marker() for line in lines(ax, "end")] == ["o", "o", "D"]
+    assert [line.get_marker() for line in of(ax, "end")] == ["o", "o", "D"]
     assert sorted(text.split("\n")[0].split(" ")[0] for text in texts(ax, "place")) == ["1:30", "3:00", "7:30"]
-    assert not lines(figures.clock_face({"motions": [motion("flexion", 1.0)]}), "end")
+    assert not of(figures.clock_face({"motions": [motion("flexion", 1.0)]}), "end")
 
 
 def test_labels_of_the_clock_do_not_overlap():
     crowded = {"motions": [motion(f"internal_rotation_{i}", 10.0, clock_hour=1 + 0.01 * i) for i in range(7)]}
     ax = figures.clock_face(crowded)
     ax.figure.canvas.draw()
-    extents = [text.get_window_extent() for text in ax.texts if text.get_gid() == "place"]
-    assert len(extents) == 7
-    assert not any(a.overlaps(b) for i, a in enumerate(extents) for b in extents[:i])
+    extents = [text.get_window_extent() for text in of(ax, "place")]
+    assert len(extents) == 7 and are_apart(extents)
 
 
 def test_the_plane_of_the_rim_has_the_notch_at_six():
@@ -230,9 +203,7 @@ def test_names_of_any_length_stay_on_the_paper():
     long = {"motions": [motion("W" * 200, 30.0, clock_hour=2.0), motion("w w" * 60, 20.0, clock_hour=9.0)]}
     for ax in (figures.limits(long), figures.clock_face(long)):
         ax.figure.canvas.draw()
-        for text in [*ax.texts, *(ax.get_yticklabels() if ax.axison else [])]:
-            extent = text.get_window_extent()
-            assert extent.x0 >= -0.5 and extent.x1 <= ax.figure.bbox.x1 + 0.5, text.get_text()
+        assert are_on(ax.figure.bbox, [*ax.texts, *(ax.get_yticklabels() if ax.axison else [])])
 
 
 def test_hours_are_named_as_a_clock_names_them():
@@ -273,13 +244,10 @@ def test_live_results_are_drawn_as_files_are():
     def limit(name, turned, reason, kind=None):
         return SimpleNamespace(name=name, limit_deg=turned, reason=reason, bearing_contact_deg=None, contact_kind=kind)
 
-    live = SimpleNamespace(limits=(limit("flexion", 100.0, "contact", "impingement"),
-                                   limit("faber", 90.0, "end_of_range")))
-    bands = [SimpleNamespace(p5_deg=95.0, median_deg=100.0, p95_deg=104.0),
-             SimpleNamespace(p5_deg=90.0, median_deg=90.0, p95_deg=90.0)]
+    live = SimpleNamespace(limits=(limit("flexion", 100.0, "contact", "impingement"), limit("faber", 90.0, "end_of_range")))
+    bands = [SimpleNamespace(p5_deg=95.0, median_deg=100.0, p95_deg=104.0), SimpleNamespace(p5_deg=90.0, median_deg=90.0, p95_deg=90.0)]
     ax = figures.limits(live, bands=bands, normal_ranges={"flexion": 120})
-    assert [bar.get_width() for bar in bars(ax, "limit")] == [100, 90]
-    assert [bar.get_width() for bar in bars(ax, "normal_range")] == [120]
+    assert [bar.get_width() for bar in of(ax, "limit")] == [100, 90]
+    assert [bar.get_width() for bar in of(ax, "normal_range")] == [120]
     assert texts(ax, "value") == ["100.0° (95–104)", ">90°"]
-    with pytest.raises(ValueError, match="1 bands for 2 motions"):
-        figures.limits(live, bands=bands[:1])
+    refused(lambda: figures.limits(live, bands=bands[:1]), "1 bands for 2 motions", ValueError)

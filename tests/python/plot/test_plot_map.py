@@ -1,29 +1,31 @@
 """Maps have the colours, contours and hatchings of their numbers."""
 from types import SimpleNamespace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from common import refused
+from drawn import legend_of, of
 
 import condyle.plot as figures
 from condyle.plot.map_contours import quantity_of, values_of
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def plane(rows=4, columns=5, **changes):
     """Upper ends 10 degrees a column and 20 a row, from 30 on; the start at 5."""
     upper = 35.0 + 10 * np.arange(columns)[None, :] + 20 * np.arange(rows)[:, None]
     none = np.zeros((rows, columns), dtype=bool)
-    grid = figures.MotionGrid(("flexion", "extension"), ("adduction", "abduction"),
-                              ("internal_rotation", "external_rotation"), 10.0 * np.arange(columns),
-                              5.0 * np.arange(rows) - 10, 5.0, upper - 70, upper, none, none.copy(), ~none,
+    grid = figures.MotionGrid(("flexion", "extension"), ("adduction", "abduction"), ("internal_rotation", "external_rotation"),
+                              10.0 * np.arange(columns), 5.0 * np.arange(rows) - 10, 5.0, upper - 70, upper, none, none.copy(), ~none,
                               np.ones((rows, columns), dtype=np.int64))
     return grid._replace(**changes)
+
+
+def put(values, value, *places):
+    """A copy with a value in some cells."""
+    changed = values.copy()
+    for place in places:
+        changed[place] = value
+    return changed
 
 
 def hatched(ax):
@@ -38,8 +40,7 @@ def test_views_count_from_the_start():
     assert (values_of(grid, "free_range") == 70).all()
     assert [quantity_of(grid, view) for view in ("positive", "negative", "free_range")] == [
         "limit of internal rotation", "limit of external rotation", "free range of internal and external rotation"]
-    with pytest.raises(ValueError, match="view 'up'"):
-        values_of(grid, "up")
+    refused(lambda: values_of(grid, "up"), "view 'up'", ValueError)
 
 
 def test_contours_are_labelled_with_their_levels_and_lie_on_the_plane():
@@ -68,17 +69,10 @@ def test_the_scale_holds_all_values_and_can_be_given():
 
 def test_cells_that_are_not_free_are_marked_by_what_they_are():
     grid = plane()
-    nowhere = grid.intervals.copy()
-    nowhere[0, 0] = 0
-    gone = grid.upper_deg.copy()
-    gone[0, 0] = np.nan
-    at_start = grid.free_at_start.copy()
-    at_start[1, 2] = at_start[0, 0] = False
-    nowhere[3, 4] = 2
-    is_open = grid.upper_open.copy()
-    is_open[2, 1:3] = True
-    ax = figures.motion_map(grid._replace(intervals=nowhere, upper_deg=gone, free_at_start=at_start,
-                                          upper_open=is_open))
+    is_open = put(grid.upper_open, True, (2, slice(1, 3)))
+    ax = figures.motion_map(grid._replace(
+        intervals=put(put(grid.intervals, 0, (0, 0)), 2, (3, 4)), upper_deg=put(grid.upper_deg, np.nan, (0, 0)),
+        free_at_start=put(grid.free_at_start, False, (1, 2), (0, 0)), upper_open=is_open))
     cells = hatched(ax)
     assert cells == {
         "nowhere": [(0, -10, 5, 2.5)],  # half a cell each way at the corner
@@ -99,11 +93,7 @@ def test_a_map_without_marks_has_no_legend():
 
 def test_points_that_are_free_nowhere_have_no_colour():
     grid = plane()
-    upper = grid.upper_deg.copy()
-    upper[0, 0] = np.nan
-    intervals = grid.intervals.copy()
-    intervals[0, 0] = 0
-    ax = figures.motion_map(grid._replace(upper_deg=upper, intervals=intervals))
+    ax = figures.motion_map(grid._replace(upper_deg=put(grid.upper_deg, np.nan, (0, 0)), intervals=put(grid.intervals, 0, (0, 0))))
     fills = [p for c in ax.collections if len(c.get_facecolor()) and not c.get_hatch() for p in c.get_paths()]
     assert not any(p.contains_point((0.5, -9.9)) for p in fills)  # beyond the diagonal of the corner's cell
     assert any(p.contains_point((9.0, -5.5)) for p in fills)
@@ -118,12 +108,9 @@ def test_axes_name_the_opposite_movement_only_where_they_have_it():
 
 def test_one_row_is_a_curve_with_its_points():
     grid = plane(rows=1)
-    is_open = grid.upper_open.copy()
-    is_open[0, 4] = True
-    ax = figures.motion_map(grid._replace(upper_open=is_open))
-    by_gid = {line.get_gid(): line for line in ax.lines}
-    assert by_gid["limit"].get_ydata().tolist() == [30, 40, 50, 60, 70]
-    assert by_gid["open"].get_xdata().tolist() == [40]
+    ax = figures.motion_map(grid._replace(upper_open=put(grid.upper_open, True, (0, 4))))
+    assert [line.get_ydata().tolist() for line in of(ax, "limit")] == [[30, 40, 50, 60, 70]]
+    assert [line.get_xdata().tolist() for line in of(ax, "open")] == [[40]]
     assert ax.get_xlabel() == "flexion (°)"
     across = figures.motion_map(plane(columns=1))
     assert across.lines[0].get_xdata().tolist() == [-10, -5, 0, 5]
@@ -131,10 +118,8 @@ def test_one_row_is_a_curve_with_its_points():
 
 def test_a_map_that_is_free_nowhere_is_refused():
     grid = plane()
-    with pytest.raises(ValueError, match="no point of the map is free"):
-        figures.motion_map(grid._replace(upper_deg=np.full((4, 5), np.nan)))
-    with pytest.raises(ValueError, match="no map"):
-        figures.motion_map({"motions": []})
+    refused(lambda: figures.motion_map(grid._replace(upper_deg=np.full((4, 5), np.nan))), "no point of the map is free", ValueError)
+    refused(lambda: figures.motion_map({"motions": []}), "no map", ValueError)
 
 
 def test_live_maps_are_drawn_as_files_are():
@@ -180,7 +165,7 @@ def test_what_ends_a_motion_has_a_colour_each_and_a_name():
     assert cells["ligament front"] == [(5, -7.5, 20, 5), (35, 2.5, 5, 2.5)]
     area = sum(width * height for boxes in cells.values() for *_, width, height in boxes)
     assert area == pytest.approx(40 * 15)
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["back", "front", "contact"]
+    assert legend_of(ax) == ["back", "front", "contact"]
     faces = [tuple(patch.get_facecolor()) for patch in ax.get_legend().get_patches()]
     assert len(set(faces)) == 3
     by_gid = {c.get_gid(): tuple(c.get_facecolor()[0]) for c in ax.collections if c.get_gid() in cells}
@@ -205,19 +190,13 @@ def test_many_ligaments_stay_apart_by_hatches():
 
 def test_ends_are_of_points_that_are_free():
     grid = ended_by([["", "back", "back", "back", "back"]] + NAMES[1:])
-    nowhere = np.zeros((4, 5), dtype=bool)
-    nowhere[0, 0] = True
-    gone = np.where(nowhere, np.nan, grid.upper_deg)
-    ax = figures.map_ends(grid._replace(upper_deg=gone, intervals=np.where(nowhere, 0, 1)))
+    ax = figures.map_ends(grid._replace(upper_deg=put(grid.upper_deg, np.nan, (0, 0)), intervals=put(grid.intervals, 0, (0, 0))))
     assert set(hatched(ax)) == {"nowhere"}
     assert sum(width * height for boxes in coloured(ax).values() for *_, width, height in boxes) == pytest.approx(40 * 15 - 5 * 2.5)
 
 
 def test_what_has_no_ends_to_draw_is_refused():
     grid = ended_by(NAMES)
-    with pytest.raises(ValueError, match="'up'"):
-        figures.map_ends(grid, "up")
-    with pytest.raises(ValueError, match="no point of the map is free"):
-        figures.map_ends(grid._replace(upper_deg=np.full((4, 5), np.nan)))
-    with pytest.raises(ValueError, match="no area"):
-        figures.map_ends(plane(rows=1))
+    refused(lambda: figures.map_ends(grid, "up"), "'up'", ValueError)
+    refused(lambda: figures.map_ends(grid._replace(upper_deg=np.full((4, 5), np.nan))), "no point of the map is free", ValueError)
+    refused(lambda: figures.map_ends(plane(rows=1)), "no area", ValueError)

@@ -4,16 +4,11 @@ from types import SimpleNamespace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from common import refused
+from drawn import are_apart, by_gid
 
 import condyle.plot as figures
 from condyle.plot.folder import _side_by_side
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
-
 
 TABLE = {
     "time_s": [0.0, 1.0, 2.0],
@@ -25,10 +20,6 @@ TABLE = {
     "force_in_fixed_y_n": [4.0, 0.0, 2.0],
     "force_in_fixed_z_n": [0.0, 7.0, 0.0],
 }
-
-
-def by_gid(ax):
-    return {line.get_gid(): line for line in ax.lines}
 
 
 def test_a_curve_has_the_columns_and_breaks_at_gaps():
@@ -60,33 +51,26 @@ def test_a_reference_is_drawn_over_ours_from_its_own_numbers():
 
 
 def test_quantities_that_are_not_there_are_named():
-    with pytest.raises(ValueError, match="no pressure in this table"):
-        figures.curve(TABLE, "pressure")
-    with pytest.raises(ValueError, match="quantity 'heat'"):
-        figures.curve(TABLE, "heat")
+    refused(lambda: figures.curve(TABLE, "pressure"), "no pressure in this table", ValueError)
+    refused(lambda: figures.curve(TABLE, "heat"), "quantity 'heat'", ValueError)
 
 
 def test_cycles_have_their_mean_and_a_standard_deviation_to_either_side():
-    tables = [{"cycle_percent": [0.0, 50.0, 100.0], "area_mm2": values}
-              for values in ([1.0, 2.0, np.nan], [3.0, 2.0, 7.0], [5.0, 2.0, 9.0])]
+    tables = [{"cycle_percent": [0.0, 50.0, 100.0], "area_mm2": values} for values in ([1.0, 2.0, np.nan], [3.0, 2.0, 7.0], [5.0, 2.0, 9.0])]
     ax = figures.cycles(tables, "area")
     assert by_gid(ax)["mean"].get_ydata().tolist() == [3, 2, 8]
     (band,) = [c for c in ax.collections if c.get_gid() == "deviation"]
     at_start = [y for x, y in band.get_paths()[0].vertices if x == 0]
     assert (min(at_start), max(at_start)) == (1, 5)  # 3 -+ 2: the deviation of 1, 3, 5 with n - 1
-    with pytest.raises(ValueError, match="two or more"):
-        figures.cycles(tables[:1], "area")
-    with pytest.raises(ValueError, match="same cycle_percent"):
-        figures.cycles([tables[0], {**tables[1], "cycle_percent": [0.0, 40.0, 100.0]}], "area")
+    refused(lambda: figures.cycles(tables[:1], "area"), "two or more", ValueError)
+    refused(lambda: figures.cycles([tables[0], {**tables[1], "cycle_percent": [0.0, 40.0, 100.0]}], "area"), "same cycle_percent", ValueError)
 
 
 def test_panels_draw_what_there_is():
     figure = figures.panels(TABLE)
-    assert [ax.get_ylabel() for ax in figure.axes if ax.axison] == [
-        "contact area (mm²)", "depth (mm)", "contact force (N)"]
+    assert [ax.get_ylabel() for ax in figure.axes if ax.axison] == ["contact area (mm²)", "depth (mm)", "contact force (N)"]
     assert figure.get_size_inches()[0] * 25.4 == pytest.approx(174)
-    with pytest.raises(ValueError, match="no contact"):
-        figures.panels({"time_s": [0.0]})
+    refused(lambda: figures.panels({"time_s": [0.0]}), "no contact", ValueError)
 
 
 def test_one_quantity_is_as_wide_as_a_column_and_bodies_apart_have_a_gap():
@@ -112,8 +96,7 @@ def test_answers_of_poses_become_curves():
     assert np.array_equal(table["max_pressure_mpa"], [2, np.nan], equal_nan=True)
     force = by_gid(figures.curve(table, "force"))["curve:force_n"].get_ydata()
     assert np.array_equal(force, [5, np.nan], equal_nan=True)
-    with pytest.raises(ValueError, match="1 times for 2 answers"):
-        figures.table_of([0.0], [cast, None])
+    refused(lambda: figures.table_of([0.0], [cast, None]), "1 times for 2 answers", ValueError)
 
 
 def cap(n=24, radius=20.0, inwards=False):
@@ -159,8 +142,7 @@ def test_a_flat_surface_keeps_its_shape_and_hides_its_back():
     sides = np.linalg.norm(flat.points_mm[triangles[0]] - flat.points_mm[triangles[0][[1, 2, 0]]], axis=1)
     assert np.allclose(sides, (4, 5, 3))
     assert flat.facing.tolist() == [True, False]
-    with pytest.raises(ValueError, match="no mean direction"):
-        figures.on_plane(points, triangles, np.ones(2))
+    refused(lambda: figures.on_plane(points, triangles, np.ones(2)), "no mean direction", ValueError)
 
 
 def test_pressure_has_its_colours_and_the_rest_is_grey():
@@ -194,10 +176,8 @@ def test_the_right_of_the_body_is_lateral_on_the_right(side, word):
 
 def test_wrong_shapes_of_surfaces_are_refused():
     points, triangles = cap()
-    with pytest.raises(ValueError, match="numbers for"):
-        figures.pressure_map(points, triangles, [1.0])
-    with pytest.raises(ValueError, match="projection 'cube'"):
-        figures.pressure_map(points, triangles, np.ones(len(triangles)), projection="cube")
+    refused(lambda: figures.pressure_map(points, triangles, [1.0]), "numbers for", ValueError)
+    refused(lambda: figures.pressure_map(points, triangles, np.ones(len(triangles)), projection="cube"), "projection 'cube'", ValueError)
 
 
 def test_agreement_has_bias_and_limits():
@@ -209,10 +189,8 @@ def test_agreement_has_bias_and_limits():
     assert lines["upper"].get_ydata()[0] == pytest.approx(1 + 1.96)
     assert lines["lower"].get_ydata()[0] == pytest.approx(1 - 1.96)
     assert lines["pairs"].get_xdata().tolist() == [0.5, 2, 2]
-    with pytest.raises(ValueError, match="two or more"):
-        figures.agreement([1.0], [1.0], unit="mm")
-    with pytest.raises(ValueError, match="2 values of one method and 1"):
-        figures.agreement([1.0, 2.0], [1.0], unit="mm")
+    refused(lambda: figures.agreement([1.0], [1.0], unit="mm"), "two or more", ValueError)
+    refused(lambda: figures.agreement([1.0, 2.0], [1.0], unit="mm"), "2 values of one method and 1", ValueError)
 
 
 def test_many_methods_are_named_apart_and_zeros_have_a_row_of_their_own():
@@ -228,5 +206,5 @@ def test_many_methods_are_named_apart_and_zeros_have_a_row_of_their_own():
     names = [t for t in ax.texts if t.get_text().startswith(("method", "exact"))]
     extents = [plt.Text.get_window_extent(t, renderer) for t in names]
     assert len(names) == 21
-    assert not any(a.overlaps(b) for i, a in enumerate(extents) for b in extents[:i])
+    assert are_apart(extents)
     assert max(extent.x1 for extent in extents) <= ax.figure.bbox.x1 + 0.5

@@ -1,11 +1,10 @@
 """python3 -m condyle.plot draws a patient's folder: the figures of each side, a sheet of each and one figure of both."""
 import json
-import subprocess
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import pytest
-from test_plot_folders import closed, run  # noqa: F401
+from common import run_command
+from test_plot_folders import is_refused, run
 from test_plot_sheet import COMMON, motion, plan, rom, said_in, texts_of
 
 from condyle.plot.patient import figures_of, sheets_of
@@ -78,8 +77,7 @@ def test_shapes_are_drawn_where_there_are_some_and_stand_on_the_sheet(tmp_path):
 def test_texts_of_sheets_are_refused_for_another_folder(tmp_path, heading):
     write(tmp_path / "rom.json", rom(motion("flexion", 110)))
     ran = run(tmp_path, heading, "17", "--out", tmp_path / "out")
-    assert (ran.returncode, ran.stdout) == (2, "") and ran.stderr.count("\n") == 1
-    assert ran.stderr.startswith(f"condyle: {tmp_path}: --case, --date and --note stand on sheets") and not (tmp_path / "out").exists()
+    assert is_refused(ran, 2, "", f"{tmp_path}: --case, --date and --note stand on sheets") and not (tmp_path / "out").exists()
     assert "not a folder" in run(tmp_path / "none", heading, "17").stderr
 
 
@@ -91,22 +89,19 @@ def test_nothing_is_written_if_anything_is_bad(tmp_path):
                               ("right/limits/rom.json", left, "of the left side, in the folder of the right one")):
         before = (at / name).read_text()
         (at / name).write_text(text)
-        ran = run(at, "--out", tmp_path / "out")
-        assert ran.returncode == 3 and ran.stderr.startswith(f"condyle: {at / name}: ") and ran.stderr.count("\n") == 1, ran.stderr
-        assert words in ran.stderr and not (tmp_path / "out").exists()
+        assert is_refused(run(at, "--out", tmp_path / "out"), 3, words, f"{at / name}: ") and not (tmp_path / "out").exists()
         (at / name).write_text(before)
-    ran = run(at, "--frames", 0)
-    assert ran.returncode == 3 and "limits: no curves.csv in it" in ran.stderr and not list(at.rglob("*.pdf"))
+    assert is_refused(run(at, "--frames", 0), 3, "limits: no curves.csv in it") and not list(at.rglob("*.pdf"))
 
 
-def test_what_the_command_writes_is_drawn(tmp_path, command, coarse_hip_file):
+def test_what_the_command_writes_is_drawn(tmp_path, coarse_hip_file):
     """The writers are C++: a key that one of them renames is detected here."""
     text = coarse_hip_file.read_text()
     hip = coarse_hip_file.with_name("left.toml")
     hip.write_text(text.replace('side = "right"', 'side = "left"').replace("sample right", "sample left"))
     for side, joint in (("left", hip), ("right", coarse_hip_file)):
         for name, part, *options in (("rom", "limits", "--band=20"), ("measure", "measures"), ("resect", "plan", "--reach=fadir=48", "--curve=0")):
-            subprocess.run([command, name, joint, *options, "--out", tmp_path / side / part], check=True, capture_output=True)
+            run_command(name, joint, *options, "--out", tmp_path / side / part)
     found = figures_of(tmp_path)
     assert [name for name, _ in found] == [f"{side}/{name}" for side in ("left", "right")
                                            for name in ("limits/limit_bands", "limits/clock_face", "measures/hip_shape")] + ["both"]

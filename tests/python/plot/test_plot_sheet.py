@@ -1,9 +1,7 @@
 """A case on paper: a first page to decide by, text that can be selected, nothing over anything else, nothing cut off, nothing left out."""
 import copy
-import itertools
 import json
 import re
-import subprocess
 import zlib
 from pathlib import Path
 
@@ -13,11 +11,13 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
+from test_plot_folders import is_refused, run
+from common import refused, run_command
+from drawn import are_tidy
 
 import condyle
 import condyle.plot as figures
 from condyle.plot import sheet_text
-from condyle.plot.__main__ import main
 from condyle.plot.case_files import read_case
 from condyle.plot.case_sheet import DPI
 
@@ -45,9 +45,8 @@ def plan(*limits: "tuple[str, float, float]", targets: "dict[str, float]", **mor
     found = {name: {"motion": name, "before": end(before), "after": end(after)} for name, before, after in limits}
     cut = {"body": "mobile", "name": "femur", "volume_mm3": 164.14, "area_mm2": 126.1, "deepest_mm": 2.739, "deepest_hour": 2.519}
     depths = [0.0, 0.0, 0.0, 1.88, 2.72] + [0.0] * 19
-    return {**COMMON, "margin_mm": 0.5, "limits": list(found.values()), "cuts": [cut], "depth_by_half_hour_mm": depths,
-            "resection_notes": [], "notes": [],
-            "caveats": ["osseous only: labrum, cartilage, capsule and the strength of the remaining bone are not modelled"],
+    return {**COMMON, "margin_mm": 0.5, "limits": list(found.values()), "cuts": [cut], "depth_by_half_hour_mm": depths, "resection_notes": [],
+            "notes": [], "caveats": ["osseous only: labrum, cartilage, capsule and the strength of the remaining bone are not modelled"],
             "targets": [{**found[name], "reach_deg": reach, "band": None} for name, reach in targets.items()],
             "measures": [{"key": "head_neck_offset_1_30_mm", "unit": "mm", "before": 6.4, "after": 8.8},
                          {"key": "neck_shaft_angle_deg", "unit": "deg", "before": 126.22, "after": 126.24},
@@ -100,30 +99,15 @@ def boxes(figure: plt.Figure) -> "list[tuple[str, Bbox]]":
 
 
 def is_tidy(pages: "list[plt.Figure]") -> bool:
-    """No text runs into another or over the edge, none is small. Boxes have the lines' height, of which letters with descenders leave a part free."""
-    return all(map(_is_tidy, pages))
-
-
-def _is_tidy(figure: plt.Figure) -> bool:
-    found = boxes(figure)
-    assert min(text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()) >= 7
-    for text, box in found:
-        assert box.x0 >= 10 and box.y0 >= 10 and box.x1 <= 585 and box.y1 <= 832, text
-    for (text, box), (other, over) in itertools.combinations(found, 2):
-        across = min(box.x1, over.x1) - max(box.x0, over.x0)
-        down = min(box.y1, over.y1) - max(box.y0, over.y0)
-        assert across < 0.5 or down < 0.25 * min(box.height, over.height), f"{text!r} and {other!r}"
+    """No text runs into another or over the edge, none is small."""
+    for figure in pages:
+        assert min(text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()) >= 7
+        assert are_tidy(boxes(figure), Bbox([[10, 10], [585, 832]]))
     return True
 
 
 def texts_of(pages: "list[plt.Figure]") -> str:
     return " ".join(" ".join(text.get_text() for page in pages for text in page.texts).split())
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 MANY = [f"{LONG} {i}".replace(" ", "_") if i % 4 == 0 else f"motion_{i}_$x^2$" for i in range(24)]
@@ -210,13 +194,12 @@ def test_the_first_page_has_the_five_gravest_notes_and_any_number_follows(full, 
     assert is_tidy(pages) and 1 < texts_of(pages[:1]).count("• ") < 5 and all(f"• {i}: " in texts_of(pages) for i in range(30))
 
 
-def test_what_leaves_no_room_on_the_first_page_is_refused_and_many_motions_go_on_behind_it(tmp_path, capsys):
+def test_what_leaves_no_room_on_the_first_page_is_refused_and_many_motions_go_on_behind_it(tmp_path):
     many = folder(tmp_path, rom=rom(*(motion(f"motion_{i}", 30) for i in range(70))))
-    assert main(["sheet", str(many), "--out", str(tmp_path / "a.png")]) == 0
-    assert capsys.readouterr().out.split() == [str(tmp_path / name) for name in ("a.png", "a-2.png")]
-    with pytest.raises(SystemExit) as exit:
-        main(["sheet", str(many), "--note", LONG * 60, "--out", str(tmp_path / "a.pdf")])
-    assert exit.value.code == 3 and "no room for its limits" in capsys.readouterr().err and not (tmp_path / "a.pdf").exists()
+    ran = run("sheet", many, "--out", tmp_path / "a.png")
+    assert (ran.returncode, ran.stdout.split()) == (0, [str(tmp_path / name) for name in ("a.png", "a-2.png")])
+    ran = run("sheet", many, "--note", LONG * 60, "--out", tmp_path / "a.pdf")
+    assert is_refused(ran, 3, "no room for its limits") and not (tmp_path / "a.pdf").exists()
 
 
 BEFORE, AFTER = ("flexion", 110.0, 110.0), ("fadir", 20.0, 36.0)
@@ -304,15 +287,12 @@ def test_motions_stand_in_notes_in_words_and_notes_that_two_files_have_once(tmp_
     assert [note.text for note in sheet_text.notes(found)][0] == "FADIR and internal rotation at 90° flexion are far."
 
 
-def test_results_of_two_joints_or_by_other_options_are_refused(tmp_path, capsys):
+def test_results_of_two_joints_or_by_other_options_are_refused(tmp_path):
     other = plan(BEFORE, targets={})
     other["provenance"] = {**PROVENANCE, "mobile_mesh": {"path": "femur.ply", "sha256": "00" * 32}}
     for answer, words in ((other, "of another mobile mesh than"), (plan(("flexion", 95.0, 95.0), targets={}), "their options differ")):
         at = folder(tmp_path, rom=rom(motion("flexion", 110)), resection=answer)
-        with pytest.raises(SystemExit) as exit:
-            main(["sheet", str(at), "--out", str(tmp_path / "a.pdf")])
-        error = capsys.readouterr().err
-        assert exit.value.code == 3 and error.startswith(f"condyle: {at / 'resection.json'}: ") and words in error and error.count("\n") == 1
+        assert is_refused(run("sheet", at, "--out", tmp_path / "a.pdf"), 3, words, f"{at / 'resection.json'}: ")
 
 
 ROM = rom(motion("flexion", 110))
@@ -332,20 +312,17 @@ def test_a_damaged_answer_is_one_line_that_names_its_file(tmp_path, answer, path
         at = at[key]
     at[last] = value
     name = "resection" if "cuts" in answer else "rom"
-    with pytest.raises(figures.ReadError, match=f"{name}.json: [^\n]*$"):
-        figures.sheet([folder(tmp_path, **{name: answer})])
+    refused(lambda: figures.sheet([folder(tmp_path, **{name: answer})]), f"{name}.json: [^\n]*$", figures.ReadError)
 
 
-def test_help_has_the_example_and_every_option(capsys):
+def test_help_has_the_example_and_every_option():
     for words in (["--help"], ["sheet", "--help"]):
-        with pytest.raises(SystemExit) as exit:
-            main(words)
-        said = capsys.readouterr().out
-        assert exit.value.code == 0 and 'condyle.plot sheet range plan --case "Case 17" --date 2026-11-27 --out case.pdf' in said
-    assert all(option in said for option in ("--out", "--case", "--date", "--note", "--picture"))
+        ran = run(*words)
+        assert ran.returncode == 0 and 'condyle.plot sheet range plan --case "Case 17" --date 2026-11-27 --out case.pdf' in ran.stdout
+    assert all(option in ran.stdout for option in ("--out", "--case", "--date", "--note", "--picture"))
 
 
-def test_wrong_inputs_are_refused_in_one_line(tmp_path, capsys):
+def test_wrong_inputs_are_refused_in_one_line(tmp_path):
     at, twice = folder(tmp_path / "a", rom=ROM), folder(tmp_path / "b", rom=ROM)
     (tmp_path / "words.png").write_text("no picture")
     (tmp_path / "other.json").write_text('{"condyle": 1}')
@@ -355,10 +332,7 @@ def test_wrong_inputs_are_refused_in_one_line(tmp_path, capsys):
                                    ([tmp_path / "other.json", "--out", "a.pdf"], 3, "other.json: neither rom.json nor"),
                                    ([at, twice, "--out", "a.pdf"], 3, "is another rom.json"), ([tmp_path / "c", "--out", "a.pdf"], 3, "No such file"),
                                    ([at, "--picture", tmp_path / "words.png", "--out", "a.pdf"], 3, "words.png: not a PNG picture")):
-        with pytest.raises(SystemExit) as exit:
-            main(["sheet", *map(str, arguments)])
-        error = capsys.readouterr().err
-        assert exit.value.code == code and error.startswith("condyle: ") and error.count("\n") == 1 and words in error
+        assert is_refused(run("sheet", *arguments), code, words)
 
 
 def test_a_picture_that_is_given_takes_the_place_of_the_cuts(tmp_path):
@@ -383,10 +357,10 @@ def test_a_sweep_has_its_zone_its_targets_and_a_slice_of_more_than_two_parameter
         assert ("stem version" in said.split("Safe zone")[1].split("Notes")[0]) == (len(varied) == 3)
 
 
-def test_what_the_command_writes_is_on_the_sheet(tmp_path, command, coarse_hip_file):
+def test_what_the_command_writes_is_on_the_sheet(tmp_path, coarse_hip_file):
     """The writers are C++: a key that one of them renames is detected here."""
     for name, *options in (["rom", "--band=20"], ["resect", "--reach", "fadir=48", "--curve", "0"], ["measure"]):
-        subprocess.run([command, name, coarse_hip_file, *options, "--out", tmp_path / name], check=True, capture_output=True)
+        run_command(name, coarse_hip_file, *options, "--out", tmp_path / name)
     paths = [tmp_path / name for name in ("measure/measures.json", "rom/rom.json", "resect/resection.json")]
     rom, plan = (json.loads(path.read_text()) for path in paths[1:])
     found = read_case([tmp_path / name for name in ("measure", "rom", "resect")])

@@ -3,13 +3,13 @@ import csv
 import hashlib
 import json
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from test_plot_folders import closed, run  # noqa: F401
+from test_plot_folders import is_refused, run
 from test_plot_outliers import among, study_of
+from common import refused, run_command
 
 import condyle
 import condyle.plot as figures
@@ -112,8 +112,7 @@ BAD = {
 def test_a_bad_file_is_one_line_and_3_with_its_column_and_nothing_is_written(tmp_path, name):
     table, text, words = BAD[name]
     ran = run(write(tmp_path / "in", some(), **{table: text}), "--out", tmp_path / "out")
-    assert ran.returncode == 3 and ran.stderr.startswith(f"condyle: {tmp_path / 'in'}") and ran.stderr.count("\n") == 1, ran.stderr
-    assert words in ran.stderr and not (tmp_path / "out").exists()
+    assert is_refused(ran, 3, words, tmp_path / "in") and not (tmp_path / "out").exists()
 
 
 def test_columns_that_are_missing_or_of_another_kind_are_named(tmp_path):
@@ -123,15 +122,12 @@ def test_columns_that_are_missing_or_of_another_kind_are_named(tmp_path):
         study = some()
         columns = {name: values for name, values in study.limits.items() if name != column or change is not None}
         object.__setattr__(study.limits, "columns", columns if change is None else {**columns, column: change})
-        with pytest.raises(figures.ReadError, match=re.escape(words)):
-            read(write(tmp_path, study))
+        refused(lambda: read(write(tmp_path, study)), re.escape(words), figures.ReadError)
 
 
 def test_what_is_no_whole_study_is_refused(tmp_path):
     folder = write(tmp_path / "in", some())
-    assert "stand on sheets" in run(folder, "--case", "17").stderr and run(folder, "--case", "17").returncode == 2
-    ran = run(folder, "--frames", 0)
-    assert ran.returncode == 3 and "no frames to draw" in ran.stderr
+    assert is_refused(run(folder, "--case", "17"), 2, "stand on sheets") and is_refused(run(folder, "--frames", 0), 3, "no frames to draw")
     (folder / "hips.csv").write_text("changed")
     assert run(folder).stderr == f"condyle: {folder / 'hips.csv'}: is not the one that study.json was written with\n"
     (tmp_path / "parted" / "shards").mkdir(parents=True)
@@ -139,12 +135,12 @@ def test_what_is_no_whole_study_is_refused(tmp_path):
     assert not list(tmp_path.rglob("*.pdf"))
 
 
-def test_what_the_command_writes_is_drawn(tmp_path, command, coarse_hip_file):
+def test_what_the_command_writes_is_drawn(tmp_path, coarse_hip_file):
     """The writer is C++: a column that it renames is detected here."""
     rows = "".join(f"{name},{coarse_hip_file},{age},{sex}\n" for name, age, sex in (("b", 30, "f"), ("a", 40, "m")))
     (tmp_path / "hips.csv").write_text(f"id,joint,age,sex\n{rows}c,nothere.toml,50,f\n")
     asked = ["--motion", "flexion,fadir", "--measures", "--band=20"]
-    subprocess.run([command, "study", tmp_path / "hips.csv", *asked, "--out", tmp_path / "out"], check=True, capture_output=True)
+    run_command("study", tmp_path / "hips.csv", *asked, "--out", tmp_path / "out")
     study = read(tmp_path / "out")
     assert isinstance(study, condyle.Study)
     assert [name for name, _ in figures_of(study)] == ["limit_distributions", "limits_against_age", "limits_by_sex", "measure_distributions"]
