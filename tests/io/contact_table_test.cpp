@@ -7,8 +7,8 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "io/joint/depth_surfaces.hpp"
 #include "io/motion/motion_text.hpp"
+#include "support/joint_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -25,12 +25,14 @@ io::ContactEntry entry_of(std::string_view keys, double mm_per_unit = 1) {
 }
 
 std::string refusal(std::string_view keys) {
-  try {
-    entry_of(keys);
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::complaint_of<FileError>([&] { entry_of(keys); });
+}
+
+/// Each with the number of its line and what follows the name of the table.
+void expect_refused(const std::string& before, const std::string& table,
+                    const std::vector<test::Refusal>& all) {
+  for (const auto& [keys, says] : all)
+    EXPECT_EQ(refusal(before + keys), "knee.toml: line " + says.substr(0, 3) + table + says.substr(3));
 }
 
 TEST(ContactTable, LeftOutKeysAreThoseOfTheDocumentation) {
@@ -104,82 +106,66 @@ TEST(ContactTable, LengthsAreInTheUnitsOfTheFile) {
 }
 
 TEST(ContactTable, RefusesByLineAndKey) {
-  EXPECT_EQ(refusal("casting = \"tibia\"\n"),
-            "knee.toml: line 2: contact.casting: must be \"fixed\" or \"mobile\" or \"both\", not \"tibia\"");
-  EXPECT_EQ(refusal("rule = 1\n"),
-            "knee.toml: line 2: contact.rule: must be a text in quotes, not a whole number");
-  EXPECT_EQ(refusal("casting = \"both\"\nreach = 0\n"), "knee.toml: line 3: contact.reach: must be above 0");
-  EXPECT_EQ(refusal("reach = inf\n"), "knee.toml: line 2: contact.reach: must be a finite number");
-  EXPECT_EQ(refusal("law = \"quadratic\"\n"),
-            "knee.toml: line 2: contact.law: must be \"linear\" or \"logarithmic\", not \"quadratic\"");
-  EXPECT_EQ(refusal("moment_on = \"fixed\"\n"),
-            "knee.toml: line 2: contact.moment_on: must be \"casting\" or \"target\", not \"fixed\"");
-  EXPECT_EQ(refusal("mobile_part = [\"meniscus\"]\n"),
-            "knee.toml: line 2: contact.mobile_part: must be a text in quotes, not a list");
-  EXPECT_EQ(
-      refusal("rech = 5\n"),
-      "knee.toml: line 2: contact.rech: unknown key (did you mean \"reach\"?); known here: casting, fixed, "
-      "fixed_part, law, mobile, mobile_part, moment_on, reach, region, rule");
-  EXPECT_EQ(refusal("fixed = 3.0\n"), "knee.toml: line 2: contact.fixed: must be a table, not a number");
+  expect_refused(
+      "", "contact",
+      {{"casting = \"tibia\"\n", "2: .casting: must be \"fixed\" or \"mobile\" or \"both\", not \"tibia\""},
+       {"rule = 1\n", "2: .rule: must be a text in quotes, not a whole number"},
+       {"casting = \"both\"\nreach = 0\n", "3: .reach: must be above 0"},
+       {"reach = inf\n", "2: .reach: must be a finite number"},
+       {"law = \"quadratic\"\n", "2: .law: must be \"linear\" or \"logarithmic\", not \"quadratic\""},
+       {"moment_on = \"fixed\"\n", "2: .moment_on: must be \"casting\" or \"target\", not \"fixed\""},
+       {"mobile_part = [\"meniscus\"]\n", "2: .mobile_part: must be a text in quotes, not a list"},
+       {"rech = 5\n",
+        "2: .rech: unknown key (did you mean \"reach\"?); known here: casting, fixed, fixed_part, law, "
+        "mobile, mobile_part, moment_on, reach, region, rule"},
+       {"fixed = 3.0\n", "2: .fixed: must be a table, not a number"},
+       {"region = \"medial\"\n", "2: .region: must be tables written as [[region]], not a text"}});
 }
 
 TEST(ContactTable, RefusesLayersByLineAndKey) {
-  const auto of = [](std::string_view keys) { return refusal("[contact.fixed]\n" + std::string(keys)); };
-  EXPECT_EQ(of(layer), "knee.toml: line 2: contact.fixed.thickness: is missing");
-  EXPECT_EQ(of("poisson_ratio = 0.45\nthickness = 3\n"),
-            "knee.toml: line 2: contact.fixed.youngs_modulus_mpa: is missing");
-  EXPECT_EQ(of("young_modulus_mpa = 10\n"),
-            "knee.toml: line 2: contact.fixed.youngs_modulus_mpa: is missing; there is \"young_modulus_mpa\" "
-            "(did you "
-            "mean \"youngs_modulus_mpa\"?)");
-  EXPECT_EQ(of("youngs_modulus_mpa = -1\n"),
-            "knee.toml: line 3: contact.fixed.youngs_modulus_mpa: must be above 0");
-  for (const char* ratio : {"0.5", "-1", "0.6"})
-    EXPECT_EQ(of("youngs_modulus_mpa = 10\npoisson_ratio = " + std::string(ratio) + "\nthickness = 3\n"),
-              "knee.toml: line 4: contact.fixed.poisson_ratio: must be above -1 and below 0.5");
-  EXPECT_EQ(of(std::string(layer) + "thickness = 0\n"),
-            "knee.toml: line 5: contact.fixed.thickness: must be above 0");
-  EXPECT_EQ(of(std::string(layer) + "behind = \"bone.ply\"\nthickness = -3\n"),
-            "knee.toml: line 6: contact.fixed.thickness: must be above 0");
-  EXPECT_EQ(of(std::string(layer) + "behind = \"\"\n"),
-            "knee.toml: line 5: contact.fixed.behind: must name a file");
-  EXPECT_EQ(
-      of(std::string(layer) + "behind = \"${NO_SUCH_FOLDER_OF_BONES}/bone.ply\"\n"),
-      "knee.toml: line 5: contact.fixed.behind: the environment variable 'NO_SUCH_FOLDER_OF_BONES' is not "
-      "set");
-  EXPECT_EQ(of(std::string(layer) + "thickness = \"3 mm\"\n"),
-            "knee.toml: line 5: contact.fixed.thickness: must be a number, not a text");
-  EXPECT_EQ(of(std::string(layer) + "thickness = 3\nstiffness = 4\n"),
-            "knee.toml: line 6: contact.fixed.stiffness: unknown key; known here: behind, poisson_ratio, "
-            "thickness, thickness_bounds, thickness_file, youngs_modulus_mpa");
+  const std::string of_layer = layer;
+  expect_refused(
+      "[contact.fixed]\n", "contact.fixed",
+      {{of_layer, "2: .thickness: is missing"},
+       {"poisson_ratio = 0.45\nthickness = 3\n", "2: .youngs_modulus_mpa: is missing"},
+       {"young_modulus_mpa = 10\n",
+        "2: .youngs_modulus_mpa: is missing; there is \"young_modulus_mpa\" (did you mean "
+        "\"youngs_modulus_mpa\"?)"},
+       {"youngs_modulus_mpa = -1\n", "3: .youngs_modulus_mpa: must be above 0"},
+       {of_layer + "thickness = 0\n", "5: .thickness: must be above 0"},
+       {of_layer + "behind = \"bone.ply\"\nthickness = -3\n", "6: .thickness: must be above 0"},
+       {of_layer + "behind = \"\"\n", "5: .behind: must name a file"},
+       {of_layer + "behind = \"${NO_SUCH_FOLDER_OF_BONES}/bone.ply\"\n",
+        "5: .behind: the environment variable 'NO_SUCH_FOLDER_OF_BONES' is not set"},
+       {of_layer + "thickness = \"3 mm\"\n", "5: .thickness: must be a number, not a text"},
+       {of_layer + "thickness = 3\nstiffness = 4\n",
+        "6: .stiffness: unknown key; known here: behind, poisson_ratio, thickness, thickness_bounds, "
+        "thickness_file, youngs_modulus_mpa"}});
+  for (const std::string ratio : {"0.5", "-1", "0.6"})
+    expect_refused("[contact.fixed]\n", "contact.fixed",
+                   {{"youngs_modulus_mpa = 10\npoisson_ratio = " + ratio + "\nthickness = 3\n",
+                     "4: .poisson_ratio: must be above -1 and below 0.5"}});
 }
 
 TEST(ContactTable, RefusesRegionsByLineAndKey) {
-  const auto of = [](std::string_view keys) { return refusal("[[contact.region]]\n" + std::string(keys)); };
-  const std::string half = "half_space = [{ normal = [0, 0, 1] }]\n";
-  EXPECT_EQ(of("name = \"medial\"\n" + half), "accepted");
-  EXPECT_EQ(of(half), "knee.toml: line 2: contact.region[0].name: is missing");
-  EXPECT_EQ(of("name = \"Medial side\"\n" + half),
-            "knee.toml: line 3: contact.region[0].name: must be of small letters, digits and _");
-  EXPECT_EQ(of("name = \"medial\"\n"), "knee.toml: line 2: contact.region[0].half_space: is missing");
-  EXPECT_EQ(of("name = \"a\"\nhalf_space = [{ normal = [0, 0, 0] }]\n"),
-            "knee.toml: line 4: contact.region[0].half_space[0].normal: must not be zero");
-  EXPECT_EQ(of("name = \"a\"\nhalf_space = [{ offset = 1 }]\n"),
-            "knee.toml: line 4: contact.region[0].half_space[0].normal: is missing");
-  EXPECT_EQ(of("name = \"a\"\n" + half + "[[contact.region]]\nname = \"a\"\n" + half),
-            "knee.toml: line 6: contact.region[1].name: \"a\" is given twice");
-  EXPECT_EQ(refusal("region = \"medial\"\n"),
-            "knee.toml: line 2: contact.region: must be tables written as [[region]], not a text");
+  const std::string half = "half_space = [{ normal = [0, 0, 1] }]\n", region = "[[contact.region]]\n";
+  EXPECT_EQ(refusal(region + "name = \"medial\"\n" + half), "accepted");
+  expect_refused(
+      region, "contact.region",
+      {{half, "2: [0].name: is missing"},
+       {"name = \"Medial side\"\n" + half, "3: [0].name: must be of small letters, digits and _"},
+       {"name = \"medial\"\n", "2: [0].half_space: is missing"},
+       {"name = \"a\"\nhalf_space = [{ normal = [0, 0, 0] }]\n",
+        "4: [0].half_space[0].normal: must not be zero"},
+       {"name = \"a\"\nhalf_space = [{ offset = 1 }]\n", "4: [0].half_space[0].normal: is missing"},
+       {"name = \"a\"\n" + half + region + "name = \"a\"\n" + half, "6: [1].name: \"a\" is given twice"}});
 }
 
 /// A flat layer, normal +y, 2 mm above a bone; of the small bone half of the layer is.
 class ContactSurfacesOfAJoint : public ::testing::Test {
  protected:
   void SetUp() override {
-    TriMesh square;
-    for (const Vec3& corner : {Vec3(-5, 0, -5), Vec3(-5, 0, 5), Vec3(5, 0, -5), Vec3(5, 0, 5)})
-      square.vertices.push_back(corner);
-    square.triangles = {{0, 1, 2}, {2, 1, 3}};
+    TriMesh square = test::mesh_of({{-5, 0, -5}, {-5, 0, 5}, {5, 0, -5}, {5, 0, 5}}, {{0, 1, 2}, {2, 1, 3}});
     io::write_mesh(folder / "layer.ply", square);
     io::write_mesh(folder / "bone.ply", test::box({-20, -10, -20}, {20, -2, 20}));
     io::write_mesh(folder / "small.ply", test::box({-20, -10, -20}, {0, -2, 20}));
@@ -187,12 +173,13 @@ class ContactSurfacesOfAJoint : public ::testing::Test {
   }
   io::LoadedJoint joint(const std::string& more) const {
     return io::read_joint(folder.file(
-        "joint.toml",
-        "condyle = 1\nname = \"joint\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
-        "\"mm\"\n[fixed]\nname = \"plate\"\nmeshes = [{ name = \"layer\", mesh = \"layer.ply\" }, { name "
-        "= \"bone\", mesh = \"bone.ply\" }]\n[mobile]\nname = \"ball\"\nmesh = \"ball.ply\"\n[frame]\n"
-        "centre = [1, 2, 3]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" +
-            more));
+        "joint.toml", test::joint_text({.kind = "free",
+                                        .keys = "joint = \"knee\"\n",
+                                        .fixed = "name = \"plate\"\nmeshes = [{ name = \"layer\", mesh = "
+                                                 "\"layer.ply\" }, { name = \"bone\", mesh = \"bone.ply\" }]",
+                                        .mobile = "name = \"ball\"\nmesh = \"ball.ply\"",
+                                        .centre = "[1, 2, 3]",
+                                        .more = more})));
   }
   static contact::ElasticContactOptions options_of(const io::LoadedJoint& loaded) {
     const io::ContactEntry& entry = *loaded.report.file.contact;
@@ -273,26 +260,14 @@ TEST_F(ContactSurfacesOfAJoint, AThicknessIsMeasuredToTheMeshBehind) {
   for (const std::size_t v : {2, 3}) EXPECT_EQ(half[v], 4) << "nothing lies behind";
 
   const io::LoadedJoint without = joint(fixed + "behind = \"small.ply\"\n");
-  try {
-    options_of(without);
-    FAIL();
-  } catch (const MeshError& error) {
-    EXPECT_TRUE(
-        std::string(error.what()).starts_with("layer: 2 of 4 vertices, vertex 2 the first, have nothing of "))
-        << error.what();
-  }
+  test::expect_begins(test::complaint_of<MeshError>([&] { options_of(without); }),
+                      "layer: 2 of 4 vertices, vertex 2 the first, have nothing of ");
   EXPECT_THROW(options_of(joint(fixed + "behind = \"none.ply\"\n")), FileError);
 }
 
 TEST_F(ContactSurfacesOfAJoint, AnErrorInTheTableNamesTheJointFile) {
-  try {
-    joint("[contact]\ncasting = \"ball\"\n");
-    FAIL();
-  } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("joint.toml: line 18: contact.casting: must be "),
-              std::string::npos)
-        << error.what();
-  }
+  test::expect_says(test::complaint_of<FileError>([&] { joint("[contact]\ncasting = \"ball\"\n"); }),
+                    "joint.toml: line 18: contact.casting: must be ");
 }
 
 }  // namespace

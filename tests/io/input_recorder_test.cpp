@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <future>
 #include <thread>
 
@@ -30,10 +29,7 @@ using io::InputRecorder;
 
 class Recorded : public ::testing::Test {
  protected:
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder / name) << text;
-    return folder / name;
-  }
+  fs::path write(const std::string& name, const std::string& text) const { return folder.file(name, text); }
   static std::string digest(const std::string& text) { return io::digest_of(text).sha256; }
 
   const TemporaryFolder folder;

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "core/predicates.hpp"
+#include "support/joint_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -31,24 +31,16 @@ class JointBodyPose : public ::testing::Test {
   }
   std::filesystem::path write(std::string_view fixed, std::string_view mobile, std::string_view more = "",
                               std::string_view units = "mm") const {
-    return folder.file("joint.toml",
-                       "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\n"
-                       "side = \"right\"\nunits = \"" +
-                           std::string(units) + "\"\n[fixed]\n" + std::string(fixed) + "\n[mobile]\n" +
-                           std::string(mobile) +
-                           "\n[frame]\ncentre = [1, 2, 3]\nanterior = [0, 1, 0]\n"
-                           "superior = [0, 0, 1]\n" +
-                           std::string(more));
+    return folder.file("joint.toml", test::joint_text({.kind = "free",
+                                                       .units = units,
+                                                       .keys = "joint = \"knee\"\n",
+                                                       .fixed = fixed,
+                                                       .mobile = mobile,
+                                                       .centre = "[1, 2, 3]",
+                                                       .axes = "anterior = [0, 1, 0]\nsuperior = [0, 0, 1]\n",
+                                                       .more = more}));
   }
-  std::string refusal(std::string_view fixed) const {
-    const auto path = write(fixed, "mesh = \"tibia.ply\"");
-    try {
-      io::read_joint(path);
-    } catch (const FileError& error) {
-      return std::string(error.what()).substr(path.string().size() + 2);
-    }
-    return "accepted";
-  }
+  std::string refusal(std::string_view fixed) const { return test::joint_refusal(write(fixed, plain_tibia)); }
 
   const test::TemporaryFolder folder;
   static constexpr const char* plain_femur = "mesh = \"femur.ply\"";
@@ -78,9 +70,8 @@ TEST_F(JointBodyPose, OfTheMobileBodyIsThatOfTheReferencePose) {
       io::read_joint(write(plain_femur, quarter_turn + std::string(plain_tibia), reference)).joint;
   io::write_mesh(folder / "tibia.ply", posed(quarter_turned(), tibia()));
   const Joint common = io::read_joint(write(plain_femur, plain_tibia, reference)).joint;
-  for (std::size_t v = 0; v < common.mobile.mesh.vertices().size(); ++v)
-    EXPECT_LE((own.mobile.mesh.vertices()[v] - common.mobile.mesh.vertices()[v]).cwiseAbs().maxCoeff(),
-              2 * core::rounding_unit * 512);
+  EXPECT_LE(test::farthest(own.mobile.mesh.vertices(), common.mobile.mesh.vertices()),
+            2 * core::rounding_unit * 512);
 }
 
 TEST_F(JointBodyPose, ATableOfTranslationAndAnglesIsThatMatrix) {
@@ -101,43 +92,32 @@ TEST_F(JointBodyPose, LengthsAreInTheUnitsOfTheFile) {
 }
 
 TEST_F(JointBodyPose, ABadOneIsRefusedByLineAndKey) {
-  const std::string mesh = "mesh = \"femur.ply\"\n";
-  EXPECT_EQ(refusal(mesh + "pose = [1, 2]"),
-            "line 9: fixed.pose: must be a list of sixteen numbers, not of 2");
-  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]"),
-            "line 9: fixed.pose: the rotation of the matrix is not orthonormal: off by 3, more than 1e-06");
-  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1]"),
-            "line 9: fixed.pose: the matrix mirrors: its determinant is -1");
-  EXPECT_EQ(
-      refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, -6, 7, 1]"),
-      "line 9: fixed.pose: the last row of the matrix must be 0 0 0 1, not 5 -6 7 1: it looks transposed");
-  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2]"),
-            "line 9: fixed.pose: the last row of the matrix must be 0 0 0 1, not 0 0 0 2");
-  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, \"7\", 0, 0, 0, 1]"),
-            "line 9: fixed.pose: must be a number, not a text");
-  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, nan, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]"),
-            "line 9: fixed.pose: must be a finite number");
-  EXPECT_EQ(refusal(mesh + "pose = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"),
-            "line 9: fixed.pose: must be a list of sixteen numbers, not of 4");
-  EXPECT_EQ(refusal(mesh + "pose = { translation = [5, -6] }"),
-            "line 9: fixed.pose.translation: must be a list of three numbers, not of 2");
-  EXPECT_EQ(refusal(mesh + "pose = { flexion = \"30\" }"),
-            "line 9: fixed.pose.flexion: must be a number, not a text");
-  EXPECT_EQ(refusal(mesh + "pose = \"scan\""), "line 9: fixed.pose: must be a table, not a text");
-  EXPECT_NE(refusal(mesh + "pose = { dorsiflexion = 3 }").find("unknown key"), std::string::npos);
-  EXPECT_NE(refusal(mesh + "poze = 1").find("unknown key (did you mean \"pose\"?)"), std::string::npos)
-      << refusal(mesh + "poze = 1");
+  const std::string mesh = plain_femur + std::string("\n");
+  for (const test::Refusal& pose : std::vector<test::Refusal>{
+           {"[1, 2]", ": must be a list of sixteen numbers, not of 2"},
+           {"[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, -6, 7, 1]",
+            ": the last row of the matrix must be 0 0 0 1, not 5 -6 7 1: it looks transposed"},
+           {"[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2]",
+            ": the last row of the matrix must be 0 0 0 1, not 0 0 0 2"},
+           {"[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, \"7\", 0, 0, 0, 1]", ": must be a number, not a text"},
+           {"[1, 0, 0, nan, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]", ": must be a finite number"},
+           {"[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
+            ": must be a list of sixteen numbers, not of 4"},
+           {"{ translation = [5, -6] }", ".translation: must be a list of three numbers, not of 2"},
+           {"{ flexion = \"30\" }", ".flexion: must be a number, not a text"},
+           {"\"scan\"", ": must be a table, not a text"}})
+    EXPECT_EQ(refusal(mesh + "pose = " + pose.given), "line 9: fixed.pose" + pose.says);
+  test::expect_says(refusal(mesh + "pose = { dorsiflexion = 3 }"), "unknown key");
+  test::expect_says(refusal(mesh + "poze = 1"), "unknown key (did you mean \"pose\"?)");
 }
 
 TEST_F(JointBodyPose, AnswersInTheSourceFrameLieOnTheFiles) {
   const io::LoadedJoint loaded = io::read_joint(write(quarter_turn + std::string(plain_femur), plain_tibia));
   const io::Provenance from = io::provenance_of(loaded, {}, io::AnswerFrameName::source);
   const TriMesh fixed = from.frame.fixed_mesh(loaded.joint.fixed.mesh);
-  for (std::size_t v = 0; v < fixed.vertices.size(); ++v) {
-    EXPECT_EQ(fixed.vertices[v], femur().vertices[v]);
-    const Vec3 placed = from.fixed.joint_from_source * femur().vertices[v];
-    EXPECT_EQ(placed, loaded.joint.fixed.mesh.vertices()[v]);
-  }
+  EXPECT_EQ(fixed.vertices, femur().vertices);
+  EXPECT_EQ(test::mapped(femur(), [&](const Vec3& p) { return Vec3(from.fixed.joint_from_source * p); }),
+            loaded.joint.fixed.mesh);
 }
 
 TEST_F(JointBodyPose, AMatrixOfFewDigitsIsMadeARotationWithANote) {
@@ -146,7 +126,7 @@ TEST_F(JointBodyPose, AMatrixOfFewDigitsIsMadeARotationWithANote) {
                                std::string(plain_femur),
                            plain_tibia));
   ASSERT_EQ(loaded.report.processing.size(), 1u);
-  EXPECT_NE(loaded.report.processing[0].find("fixed.pose: its rotation was off by"), std::string::npos);
+  test::expect_says(loaded.report.processing[0], "fixed.pose: its rotation was off by");
   // Seven digits of sine and cosine: their length is off by 4e-9 and is made 1, which turns nothing.
   EXPECT_NEAR(loaded.report.file.joint.fixed_in_W(0, 0), std::sqrt(3) / 2, 1e-8);
 }

@@ -15,24 +15,15 @@
 #include "condyle/resection.hpp"
 #include "condyle/sample/hip.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "support/joint_text.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
 /// Parts of a body that planes cut from one of its meshes: `cut` of [[part]].
 
-namespace condyle {
+namespace condyle::cut_parts {
 namespace {
-
-namespace cut_parts {
-
-std::string file_text(std::string_view fixed, std::string_view mobile, std::string_view more,
-                      std::string_view units = "mm") {
-  return "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"right\"\nunits = \"" + std::string(units) +
-         "\"\n[fixed]\nname = \"pelvis\"\n" + std::string(fixed) + "\n[mobile]\nname = \"femur\"\n" +
-         std::string(mobile) + "\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" +
-         std::string(more);
-}
 
 std::string fragment_text(std::string_view planes, std::string_view more = "") {
   return "[[part]]\nname = \"fragment\"\nbody = \"fixed\"\ncut = [" + std::string(planes) + "]\n" +
@@ -83,12 +74,8 @@ void expect_sound_halves(const Joint& joint, const TriMesh& whole) {
 TriMesh turned(const TriMesh& mesh, double frontal_deg) {
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(frontal_deg * std::numbers::pi / 180, Vec3::UnitX()).toRotationMatrix();
-  TriMesh out = mesh;
-  for (std::size_t v = 0; v < out.vertices.size(); ++v) out.vertices.set(v, R * out.vertices[v]);
-  return out;
+  return test::mapped(mesh, [&](const Vec3& p) { return Vec3(R * p); });
 }
-
-}  // namespace cut_parts
 
 class CutParts : public ::testing::Test {
  protected:
@@ -98,44 +85,45 @@ class CutParts : public ::testing::Test {
     io::write_mesh(folder / "hip_bone.ply", hip_bone);
     io::write_mesh(folder / "femur.ply", femur);
   }
-  io::LoadedJoint read(std::string_view more, std::string_view fixed = "mesh = \"hip_bone.ply\"",
+  io::LoadedJoint read(const test::JointText& text, std::string_view name = "joint.toml") const {
+    return io::read_joint(folder.file(name, test::joint_text(text)));
+  }
+  io::LoadedJoint read(std::string_view more, std::string_view fixed = plain,
                        std::string_view name = "joint.toml") const {
-    return io::read_joint(folder.file(name, cut_parts::file_text(fixed, "mesh = \"femur.ply\"", more)));
+    const std::string named = "name = \"pelvis\"\n" + std::string(fixed);
+    return read({.fixed = named, .mobile = femur_key, .more = more}, name);
   }
-  std::string refusal(std::string_view more, std::string_view fixed = "mesh = \"hip_bone.ply\"") const {
-    try {
-      read(more, fixed);
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return "accepted";
+  std::string refusal(std::string_view more, std::string_view fixed = plain) const {
+    return test::complaint_of([&] { read(more, fixed); });
   }
+
+  static constexpr const char *plain = "mesh = \"hip_bone.ply\"",
+                              *femur_key = "name = \"femur\"\nmesh = \"femur.ply\"";
 
   const test::TemporaryFolder folder;
   TriMesh hip_bone, femur;
 };
 
 TEST_F(CutParts, AreClosedAndTogetherTheBone) {
-  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::LoadedJoint joint = read(fragment_text(around_socket));
   ASSERT_EQ(joint.joint.fixed.parts.size(), 2u);
   EXPECT_EQ(joint.joint.fixed.parts[0].name, "pelvis");
   EXPECT_EQ(joint.joint.fixed.parts[1].name, "fragment");
-  cut_parts::expect_sound_halves(joint.joint, hip_bone);
+  expect_sound_halves(joint.joint, hip_bone);
   const auto& lines = joint.report.processing;
   EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
     return line.rfind("fragment: cut from pelvis by 4 planes: ", 0) == 0;
   }));
   // A mesh that is named in a list keeps its name.
-  const io::LoadedJoint named =
-      read(cut_parts::fragment_text(cut_parts::around_socket, "meshes = [\"hip bone\"]"),
-           "meshes = [{ name = \"hip bone\", mesh = \"hip_bone.ply\" }]");
+  const io::LoadedJoint named = read(fragment_text(around_socket, "meshes = [\"hip bone\"]"),
+                                     "meshes = [{ name = \"hip bone\", mesh = \"hip_bone.ply\" }]");
   EXPECT_EQ(named.joint.fixed.parts[0].name, "hip bone");
   EXPECT_EQ(named.joint.fixed.mesh.arrays(), joint.joint.fixed.mesh.arrays());
 }
 
 TEST_F(CutParts, AsGivenHaveTheLimitsOfTheWholeBone) {
-  const io::LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket)), whole = read("");
-  cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
+  const io::LoadedJoint cut = read(fragment_text(around_socket)), whole = read("");
+  expect_same(limits_of(cut), limits_of(whole), 1e-9);
   const auto a = answer_measures(cut).measures, b = answer_measures(whole).measures;
   EXPECT_NEAR(*a.acetabulum.centre_edge_lateral.value, *b.acetabulum.centre_edge_lateral.value, 1e-9);
   EXPECT_NEAR(*a.acetabulum.inclination.value, *b.acetabulum.inclination.value, 1e-9);
@@ -152,19 +140,18 @@ TEST_F(CutParts, AsGivenHaveTheLimitsOfTheWholeBone) {
 }
 
 TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {
-  const io::LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::LoadedJoint cut = read(fragment_text(around_socket));
   const ParameterValue ten{"fragment.frontal", 10};
   const io::LoadedJoint there = with_parameters(cut, {&ten, 1});
   io::write_mesh(folder / "rest.ply", mesh_of_part(cut.joint.fixed, "pelvis"));
-  io::write_mesh(folder / "turned.ply", cut_parts::turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
+  io::write_mesh(folder / "turned.ply", turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
   const io::LoadedJoint by_hand =
       read("",
            "meshes = [{ name = \"rest\", mesh = \"rest.ply\" }, { name = \"fragment\", "
            "mesh = \"turned.ply\" }]",
            "by_hand.toml");
-  cut_parts::expect_same(cut_parts::limits_of(there), cut_parts::limits_of(by_hand), 1e-6);
-  EXPECT_NE(cut_parts::limits_of(there)[0].end.turned.degrees(),
-            cut_parts::limits_of(cut)[0].end.turned.degrees());
+  expect_same(limits_of(there), limits_of(by_hand), 1e-6);
+  EXPECT_NE(limits_of(there)[0].end.turned.degrees(), limits_of(cut)[0].end.turned.degrees());
   // The angle of a socket about the head's centre grows by the turn; the centre is fitted.
   const auto lateral = [](const io::LoadedJoint& of) {
     return *answer_measures(of).measures.acetabulum.centre_edge_lateral.value;
@@ -176,9 +163,7 @@ TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {
 /// The head of a femur that is cut keeps what a fit found, by other numbers.
 TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
   const auto fitted = [&](std::string_view more, std::string_view name) {
-    std::string text = cut_parts::file_text("mesh = \"hip_bone.ply\"", "mesh = \"femur.ply\"", more);
-    text.replace(text.find("[0, 0, 0]"), 9, "\"fit\"");
-    return io::read_joint(folder.file(name, text));
+    return read({.fixed = plain, .mobile = femur_key, .centre = "\"fit\"", .more = more}, name);
   };
   const io::LoadedJoint whole = fitted("", "whole.toml"),
                         cut = fitted(
@@ -187,7 +172,7 @@ TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
                             "[[part.parameter]]\nname = \"version\"\nrange = [-40, 40]\n",
                             "cut.toml");
   ASSERT_TRUE(is_cut(cut.joint.mobile));
-  cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
+  expect_same(limits_of(cut), limits_of(whole), 1e-9);
   const auto a = answer_measures(cut).measures, b = answer_measures(whole).measures;
   EXPECT_NEAR(*a.femur.head_radius.value, *b.femur.head_radius.value, 1e-12);
   EXPECT_NEAR(*a.femur.neck_shaft.value, *b.femur.neck_shaft.value, 1e-9);
@@ -202,26 +187,21 @@ TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
 }
 
 TEST_F(CutParts, AreCutWhereTheFileSaysInItsFrameAndUnits) {
-  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
-  TriMesh metres = hip_bone, femur_metres = femur;
-  for (TriMesh* mesh : {&metres, &femur_metres})
-    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
-      // Turned by a quarter about Z and shifted, which costs no bits but those of the shift.
-      const Vec3 p = mesh->vertices[v];
-      mesh->vertices.set(v, Vec3(-p.y() + 512, p.x(), p.z()) / 1000);
-    }
-  io::write_mesh(folder / "hip_bone_m.ply", metres);
-  io::write_mesh(folder / "femur_m.ply", femur_metres);
+  const io::LoadedJoint joint = read(fragment_text(around_socket));
+  // Turned by a quarter about Z and shifted, which costs no bits but those of the shift.
+  const auto elsewhere = [](const Vec3& p) { return Vec3(Vec3(-p.y() + 512, p.x(), p.z()) / 1000); };
+  io::write_mesh(folder / "hip_bone_m.ply", test::mapped(hip_bone, elsewhere));
+  io::write_mesh(folder / "femur_m.ply", test::mapped(femur, elsewhere));
   const std::string planes =
       "{ point = [0.466, 0, 0], normal = [-0.96, 0, -0.28] }, { point = [0.512, -0.044, 0], normal = [0, -1, "
       "0] }, { point = [0.512, 0, -0.044], normal = [0, 0, -1] }, { point = [0.557, 0, 0], normal = [1, 0, "
       "0] }";
-  std::string text = cut_parts::file_text("mesh = \"hip_bone_m.ply\"", "mesh = \"femur_m.ply\"",
-                                          cut_parts::fragment_text(planes), "m");
-  const std::string frame = "centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
-  text.replace(text.find(frame), frame.size(),
-               "centre = [0.512, 0, 0]\nanterior = [0, 1, 0]\nsuperior = [-1, 0, 0]");
-  const io::LoadedJoint other = io::read_joint(folder.file("metres.toml", text));
+  const io::LoadedJoint other = read({.units = "m",
+                                      .fixed = "name = \"pelvis\"\nmesh = \"hip_bone_m.ply\"",
+                                      .mobile = "mesh = \"femur_m.ply\"",
+                                      .centre = "[0.512, 0, 0]",
+                                      .axes = "anterior = [0, 1, 0]\nsuperior = [-1, 0, 0]\n",
+                                      .more = fragment_text(planes)});
   for (const char* name : {"pelvis", "fragment"}) {
     const MeshReport a = inspect(Mesh(mesh_of_part(joint.joint.fixed, name))),
                      b = inspect(Mesh(mesh_of_part(other.joint.fixed, name)));
@@ -238,67 +218,62 @@ TEST_F(CutParts, TakeOtherMeshesAlong) {
       "\"cartilage.ply\", "
       "contact = \"soft\" }]";
   const io::LoadedJoint joint =
-      read(cut_parts::fragment_text(cut_parts::around_socket, "meshes = [\"bone\", \"cartilage\"]"), both);
+      read(fragment_text(around_socket, "meshes = [\"bone\", \"cartilage\"]"), both);
   ASSERT_EQ(joint.joint.fixed.parts.size(), 3u);
   EXPECT_EQ(joint.joint.fixed.parts[1].name, "fragment");
   EXPECT_EQ(joint.joint.fixed.parts[2].contact, PartContact::soft);
   EXPECT_EQ(mesh_of_part(joint.joint.fixed, "cartilage").arrays(), ball);
   const ParameterValue ten{"fragment.frontal", 10};
   const io::LoadedJoint there = with_parameters(joint, {&ten, 1});
-  const TriMesh moved = mesh_of_part(there.joint.fixed, "cartilage").arrays(),
-                expected = cut_parts::turned(ball, 10);
-  for (std::size_t v = 0; v < moved.vertices.size(); ++v)
-    EXPECT_LT((moved.vertices[v] - expected.vertices[v]).norm(), 1e-12);
+  EXPECT_LT(
+      test::farthest(mesh_of_part(there.joint.fixed, "cartilage").vertices(), turned(ball, 10).vertices),
+      1e-12);
   EXPECT_EQ(mesh_of_part(there.joint.fixed, "bone").arrays(),
             mesh_of_part(joint.joint.fixed, "bone").arrays());
-  EXPECT_NE(refusal(cut_parts::fragment_text("{ point = [0, 29, 0], normal = [0, 1, 0] }",
-                                             "meshes = [\"bone\", \"cartilage\"]"),
-                    both)
-                .find("part fragment: cut: cartilage reaches beyond plane 1"),
-            std::string::npos);
-  EXPECT_NE(refusal(cut_parts::fragment_text(cut_parts::around_socket), both)
-                .find("the first must name the mesh that it is cut from; there are bone, cartilage"),
-            std::string::npos);
+  test::expect_says(refusal(fragment_text("{ point = [0, 29, 0], normal = [0, 1, 0] }",
+                                          "meshes = [\"bone\", \"cartilage\"]"),
+                            both),
+                    "part fragment: cut: cartilage reaches beyond plane 1");
+  test::expect_says(refusal(fragment_text(around_socket), both),
+                    "the first must name the mesh that it is cut from; there are bone, cartilage");
 }
 
 TEST_F(CutParts, AreRefusedInOneLine) {
   const auto refused = [&](std::string_view more, std::string_view saying) {
     const std::string line = refusal(more);
-    EXPECT_NE(line.find(saying), line.npos) << line;
-    EXPECT_NE(line.find("joint.toml: "), line.npos) << line;
-    EXPECT_EQ(line.find('\n'), line.npos);
+    test::expect_says(line, saying);
+    test::expect_says(line, "joint.toml: ");
+    test::expect_silent(line, "\n");
   };
-  const auto fragment = [](std::string_view planes, std::string_view more = "") {
-    return cut_parts::fragment_text(planes, more);
-  };
-  refused(fragment(""), "cut: needs one plane or more");
-  refused(fragment("{ point = [0, 0, 0], normal = [0, 2, 0] }"), "normal: must be a unit vector");
-  refused(fragment("{ point = [0, 0, 0] }"), "normal");
-  refused(fragment("{ point = [0, 0, 0], normal = [0, 1, 0], offset = 3 }"), "offset");
-  refused(fragment("{ point = [0, 0, nan], normal = [0, 1, 0] }"), "finite");
-  refused(fragment("{ point = [0, 400, 0], normal = [0, 1, 0] }"),
+  refused(fragment_text(""), "cut: needs one plane or more");
+  refused(fragment_text("{ point = [0, 0, 0], normal = [0, 2, 0] }"), "normal: must be a unit vector");
+  refused(fragment_text("{ point = [0, 0, 0] }"), "normal");
+  refused(fragment_text("{ point = [0, 0, 0], normal = [0, 1, 0], offset = 3 }"), "offset");
+  refused(fragment_text("{ point = [0, 0, nan], normal = [0, 1, 0] }"), "finite");
+  refused(fragment_text("{ point = [0, 400, 0], normal = [0, 1, 0] }"),
           "part fragment: cut: plane 1 misses pelvis, which lies wholly on its inner side");
-  refused(fragment("{ point = [0, -400, 0], normal = [0, 1, 0] }"), "wholly on its outer side");
-  refused(fragment("{ point = [0, 0, 0], normal = [0, 1, 0] }, { point = [0, 1, 0], normal = [0, -1, 0] }"),
-          "nothing of pelvis lies on the inner side of planes 1 to 2");
-  refused(fragment(cut_parts::around_socket, "meshes = [\"ilium\"]"),
+  refused(fragment_text("{ point = [0, -400, 0], normal = [0, 1, 0] }"), "wholly on its outer side");
+  refused(
+      fragment_text("{ point = [0, 0, 0], normal = [0, 1, 0] }, { point = [0, 1, 0], normal = [0, -1, 0] }"),
+      "nothing of pelvis lies on the inner side of planes 1 to 2");
+  refused(fragment_text(around_socket, "meshes = [\"ilium\"]"),
           "part fragment: the body has no mesh \"ilium\"; there are pelvis");
   refused(
-      fragment(cut_parts::around_socket) +
+      fragment_text(around_socket) +
           "[[part]]\nname = \"other\"\nbody = \"fixed\"\nmeshes = [\"pelvis\"]\ncut = [{ point = [0, 90, 0], "
           "normal = [0, -1, 0] }]\n[[part.parameter]]\nname = \"tilt\"\nrange = [-9, 9]\n",
       "part other: cut: pelvis is cut already");
-  refused(fragment(cut_parts::around_socket) + "[contact]\ncasting = \"mobile\"\n",
+  refused(fragment_text(around_socket) + "[contact]\ncasting = \"mobile\"\n",
           "contact.fixed_part: part fragment is cut from that mesh: name one that is not cut");
   TriMesh open = hip_bone;
   open.triangles.pop_back();
   io::write_mesh(folder / "hip_bone.ply", open);
-  refused(fragment(cut_parts::around_socket), "part fragment: cut: pelvis: an open boundary");
+  refused(fragment_text(around_socket), "part fragment: cut: pelvis: an open boundary");
 }
 
 TEST_F(CutParts, SayWhichMotionsEndOnTheirFaces) {
   // The planes cut the front of the rim off: shifted to the side it leaves its face open to the neck.
-  const io::LoadedJoint joint = read(cut_parts::fragment_text("{ point = [12, 0, 0], normal = [-1, 0, 0] }"));
+  const io::LoadedJoint joint = read(fragment_text("{ point = [12, 0, 0], normal = [-1, 0, 0] }"));
   const ParameterValue away{"fragment.lateral", -60};
   const io::LoadedJoint there = with_parameters(joint, {&away, 1});
   const auto answer = answer_range(there, {.motions = motion::hip_motions()});
@@ -320,7 +295,7 @@ TEST_F(CutParts, SayWhichMotionsEndOnTheirFaces) {
 }
 
 TEST_F(CutParts, StandInTheProvenance) {
-  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::LoadedJoint joint = read(fragment_text(around_socket));
   const io::Provenance from = io::provenance_of(joint, {});
   const auto json = io::provenance_json(&from);
   ASSERT_EQ(json["cuts"].size(), 1u);
@@ -335,7 +310,7 @@ TEST_F(CutParts, StandInTheProvenance) {
 }
 
 TEST_F(CutParts, LeaveResectionTheOtherBone) {
-  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::LoadedJoint joint = read(fragment_text(around_socket));
   const motion::Motion motion =
       motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion");
   const double limit = motion::RangeOfMotion(joint.joint).limit(motion).end.turned.degrees();
@@ -349,7 +324,7 @@ TEST_F(CutParts, LeaveResectionTheOtherBone) {
 }
 
 TEST_F(CutParts, HaveTheBandsOfTheWholeBone) {
-  const io::LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket)), whole = read("");
+  const io::LoadedJoint cut = read(fragment_text(around_socket)), whole = read("");
   const std::vector<motion::Motion> motions = {
       motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion"),
       motion::motion_named(motion::hip_motions(), "abduction")};
@@ -368,26 +343,27 @@ TEST(CutRealParts, HaveTheLimitsOfTheWholeBoneAndOfMeshesTurnedByHand) {
   if (!data) GTEST_SKIP() << "CONDYLE_DATA is not set";
   const test::TemporaryFolder folder;
   const auto path = *data / "hip_vhf_right/hip_bone.ply";
-  const std::string fixed = "mesh = \"" + path.string() + "\"",
-                    mobile = "mesh = \"" + (*data / "hip_vhf_right/femur.ply").string() + "\"";
+  const std::string fixed = test::mesh_key(path), mobile = test::mesh_key(*data / "hip_vhf_right/femur.ply");
   const auto read = [&](std::string_view name, std::string_view body, std::string_view more) {
-    return io::read_joint(folder.file(name, cut_parts::file_text(body, mobile, more)));
+    const std::string named = "name = \"pelvis\"\n" + std::string(body);
+    return io::read_joint(
+        folder.file(name, test::joint_text({.fixed = named, .mobile = mobile, .more = more})));
   };
-  const io::LoadedJoint cut = read("cut.toml", fixed, cut_parts::fragment_text(cut_parts::around_socket)),
+  const io::LoadedJoint cut = read("cut.toml", fixed, fragment_text(around_socket)),
                         whole = read("whole.toml", fixed, "");
-  cut_parts::expect_sound_halves(cut.joint, whole.joint.fixed.mesh);
-  cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
+  expect_sound_halves(cut.joint, whole.joint.fixed.mesh);
+  expect_same(limits_of(cut), limits_of(whole), 1e-9);
   const ParameterValue ten{"fragment.frontal", 10};
   const io::LoadedJoint there = with_parameters(cut, {&ten, 1});
   io::write_mesh(folder / "rest.ply", mesh_of_part(cut.joint.fixed, "pelvis"));
-  io::write_mesh(folder / "turned.ply", cut_parts::turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
+  io::write_mesh(folder / "turned.ply", turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
   const io::LoadedJoint by_hand =
       read("by_hand.toml",
            "meshes = [{ name = \"rest\", mesh = \"rest.ply\" }, { name = \"fragment\", "
            "mesh = \"turned.ply\" }]",
            "");
-  cut_parts::expect_same(cut_parts::limits_of(there), cut_parts::limits_of(by_hand), 1e-6);
+  expect_same(limits_of(there), limits_of(by_hand), 1e-6);
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::cut_parts

@@ -1,18 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
+#include "support/joint_text.hpp"
 #include "support/test_meshes.hpp"
 
 /// [[ligament]] tables of joint files, and the motions that they end.
@@ -20,51 +18,32 @@
 namespace condyle {
 namespace {
 
-namespace fs = std::filesystem;
 using std::numbers::pi;
 
 /// A ball of 24 mm in a socket of 25: nothing but a string ends its flexion.
 class JointLigaments : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("ligaments_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-    io::write_mesh(folder_ / "socket.ply", test::socket({0, 0, 0}, 25, 30, 3));
-    io::write_mesh(folder_ / "ball.ply", test::sphere({0, 0, 0}, 24, 3));
+    io::write_mesh(folder_ / "fixed.ply", test::socket({0, 0, 0}, 25, 30, 3));
+    io::write_mesh(folder_ / "mobile.ply", test::sphere({0, 0, 0}, 24, 3));
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path file(const std::string& ligaments, const std::string& more = "") const {
-    std::ofstream(folder_ / "joint.toml")
-        << "condyle = 1\nname = \"ball\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n"
-           "[fixed]\nmesh = \"socket.ply\"\n[mobile]\nmesh = \"ball.ply\"\n"
-           "[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n"
-        << ligaments << more;
-    return folder_ / "joint.toml";
+  std::filesystem::path file(const std::string& tables) const {
+    return folder_.file("joint.toml", test::joint_text({.more = tables}));
   }
-  Joint joint(const std::string& ligaments, const std::string& more = "") const {
-    return io::read_joint(file(ligaments, more)).joint;
-  }
-  void expect_refused(const std::string& ligaments, const std::string& why,
-                      const std::string& more = "") const {
-    try {
-      joint(ligaments, more);
-      ADD_FAILURE() << "accepted: " << ligaments;
-    } catch (const FileError& error) {
-      const std::string text = error.what();
-      EXPECT_NE(text.find(why), std::string::npos) << why << " is not in: " << text;
-      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-    }
+  Joint joint(const std::string& tables) const { return io::read_joint(file(tables)).joint; }
+  void expect_refused(const std::vector<test::Refusal>& all) const {
+    for (const auto& [tables, says] : all) test::expect_says(test::joint_refusal(file(tables)), says);
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
+const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
+
 /// From the front of the rim to the back of the ball's lower side: flexion, about z, winds it up.
+const std::string straight = "[[ligament]]\nname = \"front\"\nfixed = [30, 0, 0]\nmobile = [30, 0, 0]\n";
 const std::string string_over_ball =
-    "[[ligament]]\nname = \"front\"\nfixed = [30, 0, 0]\nmobile = [30, 0, 0]\n"
-    "wrap = { shape = \"sphere\", body = \"mobile\", centre = [0, 0, 0], radius = 24 }\n";
+    straight + "wrap = { shape = \"sphere\", body = \"mobile\", centre = [0, 0, 0], radius = 24 }\n";
 
 TEST_F(JointLigaments, EndAMotionWhereTheirStrainDoes) {
   const double wraps_from = 2 * std::acos(24.0 / 30), tangents = 2 * std::sqrt(30.0 * 30 - 24 * 24);
@@ -72,7 +51,6 @@ TEST_F(JointLigaments, EndAMotionWhereTheirStrainDoes) {
   const Joint ball = joint(string_over_ball + "slack_length = " + std::to_string(length / 1.05) +
                            "\nends_at_strain = 0.05\n");
   const motion::RangeOfMotion range(ball);
-  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
   const motion::MotionLimit limit = range.limit(flexion);
   EXPECT_EQ(limit.end.reason, motion::LimitReason::ligament);
   EXPECT_EQ(limit.end.ligament, 0u);
@@ -98,7 +76,6 @@ TEST_F(JointLigaments, EndAMotionWhereTheirStrainDoes) {
 
 TEST_F(JointLigaments, ThatNeverEndMotionsLeaveLimitsAsTheyAre) {
   const Joint without = joint(""), with = joint(string_over_ball + "slack_length = 20\nstiffness_n = 900\n");
-  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
   const motion::MotionLimit a = motion::RangeOfMotion(without).limit(flexion),
                             b = motion::RangeOfMotion(with).limit(flexion);
   EXPECT_EQ(a.end.turned, b.end.turned);
@@ -107,7 +84,6 @@ TEST_F(JointLigaments, ThatNeverEndMotionsLeaveLimitsAsTheyAre) {
 
 TEST_F(JointLigaments, EndTheMotionsOfABandToo) {
   const Joint ball = joint(string_over_ball + "slack_length = 40\nends_at_strain = 0.05\n");
-  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
   const Angle limit = motion::RangeOfMotion(ball).limit(flexion).end.turned;
   const auto about = motion::limits_about(ball, {&flexion, 1}, {}, std::vector<Vec3>{{0, 0, 0}, {0.4, 0, 0}});
   EXPECT_EQ(about[0].reason, motion::LimitReason::ligament);
@@ -116,13 +92,16 @@ TEST_F(JointLigaments, EndTheMotionsOfABandToo) {
   EXPECT_GT(std::abs(about[1].turned.radians() - limit.radians()), 1e-4);
 }
 
+motion::LimitBand band_of_ligaments(const Joint& joint, std::size_t samples) {
+  motion::BandOptions options{.samples = samples};
+  options.sigma = {.centre_mm = 0, .axes = {}, .surface_mm = 0, .surface_voxels = 0};
+  return motion::limit_bands(joint, {&flexion, 1}, {}, options).front();
+}
+
 TEST_F(JointLigaments, SpreadABandByWhatIsNotKnownOfTheirSlackLength) {
   const Joint ball =
       joint(string_over_ball + "slack_length = 40\nslack_sigma = 0.5\nends_at_strain = 0.05\n");
-  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
-  motion::BandOptions options{.samples = 400};
-  options.sigma = {.centre_mm = 0, .axes = {}, .surface_mm = 0, .surface_voxels = 0};
-  const motion::LimitBand band = motion::limit_bands(ball, {&flexion, 1}, {}, options).front();
+  const motion::LimitBand band = band_of_ligaments(ball, 400);
   // Wrapped over 24 mm, the angle grows with 1.05 times the slack length over the radius: 5 to 95 % are 3.29 deviations.
   EXPECT_NEAR((band.p95 - band.p5).radians(), 3.29 * 0.5 * 1.05 / 24, 0.002);
   EXPECT_NEAR(band.median.radians(), motion::RangeOfMotion(ball).limit(flexion).end.turned.radians(), 1e-3);
@@ -131,14 +110,8 @@ TEST_F(JointLigaments, SpreadABandByWhatIsNotKnownOfTheirSlackLength) {
 
 TEST_F(JointLigaments, SpreadABandByWhatIsNotKnownOfTheirPoints) {
   // From 30 mm in front of the axis to 30 mm in front of it: at a turn by t its length is 60 sin(t / 2).
-  const Joint ball = joint(
-      "[[ligament]]\nname = \"front\"\nfixed = [30, 0, 0]\nmobile = [30, 0, 0]\nslack_length = "
-      "40\npoint_sigma = 0.3\n"
-      "ends_at_strain = 0.05\n");
-  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
-  motion::BandOptions options{.samples = 2000};
-  options.sigma = {.centre_mm = 0, .axes = {}, .surface_mm = 0, .surface_voxels = 0};
-  const motion::LimitBand band = motion::limit_bands(ball, {&flexion, 1}, {}, options).front();
+  const Joint ball = joint(straight + "slack_length = 40\npoint_sigma = 0.3\nends_at_strain = 0.05\n");
+  const motion::LimitBand band = band_of_ligaments(ball, 2000);
   // Along the string either end displaces the length by one deviation, and the length's slope over the angle is 30 cos(t / 2).
   const double half = std::asin(42.0 / 60);
   EXPECT_NEAR((band.p95 - band.p5).radians(), 3.29 * 0.3 * std::sqrt(2.0) / (30 * std::cos(half)), 0.004);
@@ -152,11 +125,11 @@ TEST_F(JointLigaments, HaveOneOfThreeSlackLengths) {
   EXPECT_DOUBLE_EQ(joint(points + "slack_length = 12.5\n").ligaments[0].slack_length_mm, 12.5);
   EXPECT_DOUBLE_EQ(joint(points + "slack_share = 0.9\n").ligaments[0].slack_length_mm, 0.9 * 60);
   EXPECT_NEAR(joint(points + "taut_at = \"flexion=90\"\n").ligaments[0].slack_length_mm, 20, 1e-12);
-  expect_refused(points, "ligament[0].slack_length: is missing");
-  expect_refused(points + "slack_length = 3\nslack_share = 1\n", "give one of");
-  expect_refused(points + "slack_length = 0\n", "must be above 0");
-  expect_refused(points + "slack_length = nan\n", "must be a finite number");
-  expect_refused(points + "taut_at = \"bending=9\"\n", "taut_at");
+  expect_refused({{points, "ligament[0].slack_length: is missing"},
+                  {points + "slack_length = 3\nslack_share = 1\n", "give one of"},
+                  {points + "slack_length = 0\n", "must be above 0"},
+                  {points + "slack_length = nan\n", "must be a finite number"},
+                  {points + "taut_at = \"bending=9\"\n", "taut_at"}});
 }
 
 TEST_F(JointLigaments, ThatContradictTheirBonesOrTheirWordsAreNoted) {
@@ -169,7 +142,7 @@ TEST_F(JointLigaments, ThatContradictTheirBonesOrTheirWordsAreNoted) {
     return name + "fixed = [30, 0, 0]\nmobile = [[-24, 0, 0], [-30, " + y + ", 0], [30, " + y + ", 0]]\n" +
            slack;
   };
-  const std::vector<std::pair<std::string, std::string>> all = {
+  const std::vector<test::Refusal> all = {
       {sound + slack, ""},
       {name + "fixed = [30, 0, 0]\nmobile = [20.7, -20.7, 0]\n" + slack,
        off + "ligament a: its mobile end is 5.27 mm from"},
@@ -194,21 +167,17 @@ TEST_F(JointLigaments, ThatContradictTheirBonesOrTheirWordsAreNoted) {
     for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement))
       if (note.text.starts_with("ligament")) notes += std::string(name_of(note.code)) + ": " + note.text;
     EXPECT_EQ(notes.empty(), expected.empty()) << ligament << notes;
-    EXPECT_NE(notes.find(expected), std::string::npos) << notes << " has no " << expected;
+    test::expect_says(notes, expected);
   }
 }
 
 TEST_F(JointLigaments, ThatEndAMotionThroughBoneAreNotedWithTheLimit) {
   // At a turn by t the string is 60 sin(t / 2) long and 30 cos(t / 2) from the centre: 3.58 mm beneath the ball at 44 mm, 2.57 at 42.
   for (const double strain : {0.05, 0.1}) {
-    const io::LoadedJoint ball =
-        io::read_joint(file("[[ligament]]\nname = \"front\"\nfixed = [30, 0, 0]\nmobile = [30, 0, 0]\n"
-                            "slack_length = 40\nends_at_strain = " +
-                            std::to_string(strain) + "\n"));
-    RangeRequest request;
-    request.motions = {{.name = "flexion", .range = Angle::degrees(180)}};
+    const io::LoadedJoint ball = io::read_joint(
+        file(straight + "slack_length = 40\nends_at_strain = " + std::to_string(strain) + "\n"));
     std::string notes;
-    for (const RangeNote& note : answer_range(ball, request).notes)
+    for (const RangeNote& note : answer_range(ball, {.motions = {flexion}}).notes)
       if (note.code == RangeNoteCode::limit_through_bone) notes += note.text;
     EXPECT_EQ(strain < 0.1,
               notes.find("flexion, where ligament front runs through mobile for 2") == notes.npos)
@@ -219,34 +188,31 @@ TEST_F(JointLigaments, ThatEndAMotionThroughBoneAreNotedWithTheLimit) {
 TEST_F(JointLigaments, ThatNobodyCanMeanAreRefusedInOneLine) {
   const std::string a = "[[ligament]]\nname = \"a\"\nfixed = [40, 0, 0]\n",
                     b = a + "mobile = [0, 40, 0]\nslack_length = 60\n";
-  expect_refused(a + "slack_length = 3\n", "ligament[0].mobile: is missing");
-  expect_refused(a + "mobile = [1, 2]\nslack_length = 3\n", "three numbers");
-  expect_refused(a + "mobile = []\nslack_length = 3\n", "three numbers");
-  expect_refused(b + b, "is given twice");
-  expect_refused(b + "stiffness_n = -3\n", "must be above 0");
-  expect_refused(b + "damping_n_s = -1\n", "ligament[0].damping_n_s: must be 0 or more");
-  expect_refused(b + "transition_strain = -0.1\n", "must be 0 or more");
-  expect_refused(b + "ends_at_strain = 0\n", "must be above 0");
-  expect_refused(b + "wrap = \"neck\"\n", "head");
-  expect_refused(b + "wrap = \"head\"\n", "no head is known here");
-  expect_refused(b + "wrap = { shape = \"torus\", body = \"fixed\", centre = [0, 0, 0], radius = 3 }\n",
-                 "cylinder");
-  expect_refused(b + "wrap = { shape = \"cylinder\", body = \"fixed\", centre = [0, 0, 0], radius = 3 }\n",
-                 "axis");
-  expect_refused(b + "wrap = { shape = \"sphere\", body = \"fixed\", centre = [0, 0, 0], radius = 41 }\n"
-                     "ends_at_strain = 0.1\n",
-                 "inside its wrap");
+  const auto about = [&](std::string_view shape, std::string_view more) {
+    return b + "wrap = { shape = \"" + std::string(shape) + "\", body = \"fixed\", centre = [0, 0, 0], " +
+           std::string(more);
+  };
   expect_refused(
-      b + "wrap = { shape = \"ellipsoid\", body = \"fixed\", centre = [0, 0, 0], radii = [3, 4, 5], "
-          "axes = [[1, 0, 0], [0, 1, 0]] }\nends_at_strain = 0.1\n",
-      "cannot end motions");
-  expect_refused(
-      "[[ligament]]\nname = \"a\"\nfixed = [40, 0, 0]\nmobile = [0, 40, 0]\nslack_length = 40\n"
-      "ends_at_strain = 0.1\n",
-      "in the reference pose already");
-  expect_refused(
-      b, "a joint with parts",
-      "[[part]]\nname = \"cup\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\nrange = [-5, 5]\n");
+      {{a + "slack_length = 3\n", "ligament[0].mobile: is missing"},
+       {a + "mobile = [1, 2]\nslack_length = 3\n", "three numbers"},
+       {a + "mobile = []\nslack_length = 3\n", "three numbers"},
+       {b + b, "is given twice"},
+       {b + "stiffness_n = -3\n", "must be above 0"},
+       {b + "damping_n_s = -1\n", "ligament[0].damping_n_s: must be 0 or more"},
+       {b + "transition_strain = -0.1\n", "must be 0 or more"},
+       {b + "ends_at_strain = 0\n", "must be above 0"},
+       {b + "wrap = \"neck\"\n", "head"},
+       {b + "wrap = \"head\"\n", "no head is known here"},
+       {about("torus", "radius = 3 }\n"), "cylinder"},
+       {about("cylinder", "radius = 3 }\n"), "axis"},
+       {about("sphere", "radius = 41 }\nends_at_strain = 0.1\n"), "inside its wrap"},
+       {about("ellipsoid", "radii = [3, 4, 5], axes = [[1, 0, 0], [0, 1, 0]] }\nends_at_strain = 0.1\n"),
+        "cannot end motions"},
+       {a + "mobile = [0, 40, 0]\nslack_length = 40\nends_at_strain = 0.1\n",
+        "in the reference pose already"},
+       {b + "[[part]]\nname = \"cup\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\n"
+            "range = [-5, 5]\n",
+        "a joint with parts"}});
 }
 
 }  // namespace

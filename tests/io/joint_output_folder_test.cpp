@@ -3,6 +3,7 @@
 
 #include "condyle/error.hpp"
 #include "io/file/output_folder.hpp"
+#include "io/file/whole_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle {
@@ -15,10 +16,6 @@ using test::TemporaryFolder;
 void write(const fs::path& path, std::string_view text) {
   std::ofstream(path) << text;
 }
-std::string read(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 TEST(OutputFolder, FilesAppearTogetherOnCommitAndNothingElse) {
   const TemporaryFolder folder;
@@ -30,7 +27,7 @@ TEST(OutputFolder, FilesAppearTogetherOnCommitAndNothingElse) {
     EXPECT_FALSE(fs::exists(out / "one.txt"));
     EXPECT_EQ(files.commit(), (std::vector<fs::path>{out / "one.txt", out / "two.txt"}));
   }
-  EXPECT_EQ(read(out / "one.txt") + read(out / "two.txt"), "12");
+  EXPECT_EQ(io::read_whole_file(out / "one.txt") + io::read_whole_file(out / "two.txt"), "12");
   EXPECT_EQ(count_entries(out), 2u);
 }
 
@@ -51,12 +48,12 @@ TEST(OutputFolder, OlderFilesStayUntilCommitAndAreReplacedThen) {
     io::OutputFolder files(folder.path());
     write(files.file("one.txt"), "new");
   }
-  EXPECT_EQ(read(folder / "one.txt"), "old");
+  EXPECT_EQ(io::read_whole_file(folder / "one.txt"), "old");
   io::OutputFolder files(folder.path());
   write(files.file("one.txt"), "new");
   files.commit();
-  EXPECT_EQ(read(folder / "one.txt"), "new");
-  EXPECT_EQ(read(folder / "other.txt"), "kept");
+  EXPECT_EQ(io::read_whole_file(folder / "one.txt"), "new");
+  EXPECT_EQ(io::read_whole_file(folder / "other.txt"), "kept");
 }
 
 /// Names that a command may write.
@@ -79,8 +76,8 @@ TEST(OutputFolder, WhatAnEarlierRunOfTheCommandLeftGoesWithTheCommitAndNothingEl
   write(files.file("one.txt"), "new");
   EXPECT_EQ(files.commit(), std::vector<fs::path>{folder / "one.txt"});
   EXPECT_FALSE(fs::exists(folder / "two.txt"));
-  EXPECT_EQ(read(folder / "one.txt"), "new");
-  EXPECT_EQ(read(folder / "notes.md"), "somebody's");
+  EXPECT_EQ(io::read_whole_file(folder / "one.txt"), "new");
+  EXPECT_EQ(io::read_whole_file(folder / "notes.md"), "somebody's");
   EXPECT_TRUE(fs::exists(folder / "folder.txt"));
 }
 
@@ -109,7 +106,7 @@ TEST(OutputFolder, WithoutItsDocumentFilesAreSomebodysOwn) {
     files.commit();
   };
   EXPECT_THROW(run("first"), FileError) << "it would go with the next run";
-  EXPECT_EQ(read(folder / "two.txt"), "somebody's");
+  EXPECT_EQ(io::read_whole_file(folder / "two.txt"), "somebody's");
   fs::remove(folder / "two.txt");
   run("first");
   folder.file("two.txt", "of an earlier run");
@@ -124,7 +121,7 @@ TEST(OutputFolder, AFolderThatCannotBeMadeIsRefusedAndLeavesNothing) {
   EXPECT_THROW(io::OutputFolder{file / "below"}, FileError);
   EXPECT_THROW(io::OutputFolder{fs::path()}, FileError);
   EXPECT_THROW(io::OutputFolder{"/proc/condyle/out"}, FileError);
-  EXPECT_EQ(read(file), "text");
+  EXPECT_EQ(io::read_whole_file(file), "text");
   EXPECT_EQ(count_entries(folder.path()), 1u);
 }
 

@@ -6,6 +6,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "io/result/frame_result.hpp"
+#include "support/joint_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -29,23 +30,13 @@ class JointParts : public ::testing::Test {
     io::write_mesh(folder / "meniscus.ply", meniscus());
   }
   std::filesystem::path write(std::string_view mobile) const {
-    return folder.file("joint.toml",
-                       "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\n"
-                       "side = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"femur.ply\"\n"
-                       "[mobile]\nname = \"shank\"\n" +
-                           std::string(mobile) +
-                           "\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
-                           "superior = [0, 1, 0]\n");
+    const std::string named = "name = \"shank\"\n" + std::string(mobile);
+    return folder.file("joint.toml", test::joint_text({.kind = "free",
+                                                       .keys = "joint = \"knee\"\n",
+                                                       .fixed = "mesh = \"femur.ply\"",
+                                                       .mobile = named}));
   }
-  std::string refusal(std::string_view mobile) const {
-    const auto path = write(mobile);
-    try {
-      io::read_joint(path);
-    } catch (const FileError& error) {
-      return std::string(error.what()).substr(path.string().size() + 2);
-    }
-    return "accepted";
-  }
+  std::string refusal(std::string_view mobile) const { return test::joint_refusal(write(mobile)); }
 
   const test::TemporaryFolder folder;
   static constexpr const char* two =
@@ -92,9 +83,8 @@ TEST_F(JointParts, NameThePartOfAVertexAndATriangle) {
 
 TEST_F(JointParts, AreMetAsIfTheyWereBodiesOfTheirOwn) {
   const Joint joint = io::read_joint(write(two)).joint;
-  Pose X_FM = Pose::Identity();
-  X_FM.translation() =
-      Vec3(0, 6, 0);  // the meniscus reaches 4 mm into the femur, the tibia stays 14 mm below it
+  Pose X_FM(Eigen::Translation3d(
+      0, 6, 0));  // the meniscus reaches 4 mm into the femur, the tibia stays 14 mm below it
   const contact::JointContact whole(joint),
       meniscus_only(joint.fixed.mesh, mesh_of_part(joint.mobile, "meniscus"));
   auto pairs = whole.pairs(X_FM);
@@ -115,8 +105,8 @@ TEST_F(JointParts, AreReportedOneByOneWithTheirFiles) {
   ASSERT_EQ(from.mobile.files.size(), 2u);
   EXPECT_EQ(from.mobile.files[1].part, "meniscus");
   EXPECT_EQ(from.mobile.files[1].path, folder / "meniscus.ply");
-  EXPECT_NE(io::to_text(loaded).find("shank, meniscus: "), std::string::npos);
-  EXPECT_NE(io::frame_json(loaded, {}, &from).find("\"name\": \"meniscus\""), std::string::npos);
+  test::expect_says(io::to_text(loaded), "shank, meniscus: ");
+  test::expect_says(io::frame_json(loaded, {}, &from), "\"name\": \"meniscus\"");
 }
 
 TEST_F(JointParts, WithoutSenseAreRefusedByLineAndKey) {
@@ -127,9 +117,8 @@ TEST_F(JointParts, WithoutSenseAreRefusedByLineAndKey) {
   EXPECT_EQ(
       refusal("meshes = [{ name = \"a\", mesh = \"tibia.ply\" }, { name = \"a\", mesh = \"tibia.ply\" }]"),
       "line 11: mobile.meshes[1].name: \"a\" is given twice");
-  EXPECT_NE(refusal("meshes = [{ name = \"a\", mesh = \"no.ply\" }]")
-                .find("mobile.meshes[0].mesh: there is no file"),
-            std::string::npos);
+  test::expect_says(refusal("meshes = [{ name = \"a\", mesh = \"no.ply\" }]"),
+                    "mobile.meshes[0].mesh: there is no file");
   EXPECT_EQ(refusal("meshes = [{ name = \"a\", mesh = \"tibia.ply\", poze = 1 }]").substr(0, 36),
             "line 11: mobile.meshes[0].poze: unkn");
 }

@@ -13,6 +13,7 @@
 #include "condyle/sample/hip.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "kinematics/posed_parts.hpp"
+#include "support/joint_text.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
@@ -21,13 +22,6 @@
 
 namespace condyle {
 namespace {
-
-std::string joint_text(std::string_view side, std::string_view fixed, std::string_view mobile,
-                       std::string_view more) {
-  return "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"" + std::string(side) +
-         "\"\nunits = \"mm\"\n[fixed]\n" + std::string(fixed) + "\n[mobile]\n" + std::string(mobile) +
-         "\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" + std::string(more);
-}
 
 std::string part_text(std::string_view head, std::string_view parameters) {
   return "[[part]]\n" + std::string(head) + "\n" + std::string(parameters) + "\n";
@@ -44,19 +38,15 @@ Eigen::Matrix3d turned_by_hand(double frontal, double sagittal, double version) 
   return rotation(Vec3::UnitX(), frontal) * rotation(Vec3::UnitZ(), sagittal) *
          rotation(Vec3::UnitY(), version);
 }
-TriMesh moved_by_hand(TriMesh mesh, const Eigen::Affine3d& X) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, X * mesh.vertices[v]);
-  return mesh;
+TriMesh moved_by_hand(const TriMesh& mesh, const Eigen::Affine3d& X) {
+  return test::mapped(mesh, [&](const Vec3& p) { return Vec3(X * p); });
 }
 Eigen::Affine3d about(const Vec3& centre, const Eigen::Matrix3d& R, const Vec3& then = Vec3::Zero()) {
   return Eigen::Translation3d(centre + then) * R * Eigen::Translation3d(-centre);
 }
 
 double distance(const TriMesh& a, const TriMesh& b) {
-  double farthest = 0;
-  for (std::size_t v = 0; v < a.vertices.size(); ++v)
-    farthest = std::max(farthest, (a.vertices[v] - b.vertices[v]).norm());
-  return farthest;
+  return test::farthest(a.vertices, b.vertices);
 }
 
 /// Coordinates of less than 512 mm, rounded twice more than by hand.
@@ -75,19 +65,12 @@ class PosedParts : public ::testing::TestWithParam<Side> {
     io::write_mesh(folder / "rest.ply", rest);
   }
   std::filesystem::path write(std::string_view more) const {
-    return folder.file("joint.toml", joint_text(name_of(GetParam()),
-                                                "meshes = [{ name = \"rest\", mesh = \"rest.ply\" }, "
-                                                "{ name = \"fragment\", mesh = \"fragment.ply\" }]",
-                                                "mesh = \"femur.ply\"", more));
-  }
-  std::string refusal(std::string_view more) const {
-    const auto path = write(more);
-    try {
-      io::read_joint(path);
-    } catch (const FileError& error) {
-      return std::string(error.what()).substr(path.string().size() + 2);
-    }
-    return "accepted";
+    return folder.file("joint.toml",
+                       test::joint_text({.side = name_of(GetParam()),
+                                         .fixed = "meshes = [{ name = \"rest\", mesh = \"rest.ply\" }, "
+                                                  "{ name = \"fragment\", mesh = \"fragment.ply\" }]",
+                                         .mobile = "mesh = \"femur.ply\"",
+                                         .more = more}));
   }
   double sense() const { return GetParam() == Side::right ? 1 : -1; }
 
@@ -194,9 +177,7 @@ TEST_P(PosedParts, MoveAfterThoseThatTheFileHasBefore) {
 
 TEST_P(PosedParts, AreRefusedInOneLine) {
   const auto refused = [&](std::string_view more, std::string_view saying) {
-    const std::string line = refusal(more);
-    EXPECT_NE(line.find(saying), line.npos) << line;
-    EXPECT_EQ(line.find('\n'), line.npos);
+    test::expect_says(test::joint_refusal(write(more)), saying);
   };
   refused(part_text("name = \"cup\"\nbody = \"fixed\"\nmeshes = [\"fragmnet\"]", parameter_text("tilt")),
           "part cup: the body has no mesh \"fragmnet\"; there are rest, fragment");
@@ -223,12 +204,7 @@ TEST_P(PosedParts, AreRefusedInOneLine) {
 TEST_P(PosedParts, TakeValuesOnlyThatTheyMayHave) {
   const Joint joint = io::read_joint(write(three)).joint;
   const auto refused = [](const Joint& of, std::string_view values) -> std::string {
-    try {
-      with_parameters(of, parse_parameters(values));
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::complaint_of<UsageError>([&] { with_parameters(of, parse_parameters(values)); });
   };
   EXPECT_EQ(refused(joint, "fragment.fronatl=1"),
             "there is no parameter \"fragment.fronatl\" (did you mean \"fragment.frontal\"?); there are "
@@ -320,11 +296,11 @@ TEST(PosedBones, OfARealHipTurnItsLimitsExactly) {
   if (!data) GTEST_SKIP() << "CONDYLE_DATA is not set";
   const test::TemporaryFolder folder;
   const auto path = folder.file(
-      "vhf.toml",
-      joint_text("right", "mesh = \"" + (*data / "hip_vhf_right/hip_bone.ply").string() + "\"",
-                 "mesh = \"" + (*data / "hip_vhf_right/femur.ply").string() + "\"",
-                 part_text("name = \"pelvis\"\nbody = \"fixed\"", parameter_text("tilt")) +
-                     part_text("name = \"femur\"\nbody = \"mobile\"", parameter_text("version"))));
+      "vhf.toml", test::joint_text(
+                      {.fixed = test::mesh_key(*data / "hip_vhf_right/hip_bone.ply"),
+                       .mobile = test::mesh_key(*data / "hip_vhf_right/femur.ply"),
+                       .more = part_text("name = \"pelvis\"\nbody = \"fixed\"", parameter_text("tilt")) +
+                               part_text("name = \"femur\"\nbody = \"mobile\"", parameter_text("version"))}));
   const io::LoadedJoint joint = io::read_joint(path);
   const auto limits = [&](std::string_view values) {
     const io::LoadedJoint at = values.empty() ? joint : with_parameters(joint, parse_parameters(values));

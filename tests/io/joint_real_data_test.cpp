@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "support/joint_text.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -12,10 +11,6 @@ namespace condyle {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path data_folder() {
-  return test::shared_data_folder();
-}
 
 /// A sphere fitted by other means, published with the mesh. Both fits leave out what they take for the neck,
 /// and do not take quite the same: with residuals of rms 0.3 to 0.5 mm over half a sphere the centres differ
@@ -35,7 +30,7 @@ class RealFit : public ::testing::TestWithParam<PublishedFit> {};
 
 TEST_P(RealFit, IsFoundWithoutAHint) {
   const auto& published = GetParam();
-  const fs::path path = data_folder() / published.mesh;
+  const fs::path path = test::shared_data_folder() / published.mesh;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
   const auto patch = find_sphere(io::read_mesh(path).mesh, {.part = published.part});
   EXPECT_LE((patch.fit.sphere.centre - published.centre).norm(), centre_tolerance);
@@ -68,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(RealFemur, ADirtyFemurInScannerAxesStillShowsItsHead) {
-  const fs::path path = data_folder() / "femur_libhip_m5_right_dirty/femur_tracked_surface.stl";
+  const fs::path path = test::shared_data_folder() / "femur_libhip_m5_right_dirty/femur_tracked_surface.stl";
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
   const auto patch = find_sphere(io::read_mesh(path).mesh);
   // Femoral heads of adults: 20 to 30 mm.
@@ -78,7 +73,7 @@ TEST(RealFemur, ADirtyFemurInScannerAxesStillShowsItsHead) {
 }
 
 TEST(RealFemur, AFitDoesNotDependOnWhereTheFemurLies) {
-  const fs::path path = data_folder() / "hip_vhf_right/femur.ply";
+  const fs::path path = test::shared_data_folder() / "hip_vhf_right/femur.ply";
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
   const TriMesh femur = io::read_mesh(path).mesh;
   const auto still = find_sphere(femur);
@@ -92,15 +87,14 @@ TEST(RealFemur, AFitDoesNotDependOnWhereTheFemurLies) {
 }
 
 TEST(RealJoint, TheVisibleHumanHipIsReadWithItsMetresSourceNamedAsSuch) {
-  const fs::path pelvis = data_folder() / "hip_vhf_right/hip_bone.ply";
-  const fs::path source = data_folder() / "hip_vhf_right/dirty/FemurL_source.obj";
+  const fs::path pelvis = test::shared_data_folder() / "hip_vhf_right/hip_bone.ply";
+  const fs::path source = test::shared_data_folder() / "hip_vhf_right/dirty/FemurL_source.obj";
   if (!fs::exists(pelvis) || !fs::exists(source)) GTEST_SKIP() << pelvis << " is not here";
   const test::TemporaryFolder folder;
-  const auto joint = folder.file(
-      "hip.toml",
-      "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"left\"\nunits = \"mm\"\n[fixed]\nmesh = \"" +
-          fs::absolute(pelvis).string() + "\"\n[mobile]\nmesh = \"" + fs::absolute(source).string() +
-          "\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
+  const auto joint =
+      folder.file("hip.toml", test::joint_text({.side = "left",
+                                                .fixed = test::mesh_key(fs::absolute(pelvis)),
+                                                .mobile = test::mesh_key(fs::absolute(source))}));
   EXPECT_THROW(io::read_joint(joint), FileError);
 }
 

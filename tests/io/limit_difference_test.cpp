@@ -25,9 +25,7 @@ motion::MotionLimit limit_at(double deg, motion::LimitReason reason) {
 
 LimitDifference difference_of(const motion::MotionLimit& before, const motion::MotionLimit& after) {
   const Joint joint = arm_and_post();
-  const std::vector<motion::MotionLimit> of_before{before}, of_after{after};
-  return limit_differences({.joint = joint, .limits = of_before}, {.joint = joint, .limits = of_after})
-      .front();
+  return limit_differences({.joint = joint, .limits = {before}}, {.joint = joint, .limits = {after}}).front();
 }
 
 TEST(LimitDifference, IsAfterMinusBeforeIfBothMotionsEndByContact) {
@@ -66,16 +64,10 @@ motion::LimitBand band_of(double more_deg, double slope = 0) {
 
 LimitDifference with_bands(const motion::LimitBand& before, const motion::LimitBand& after,
                            std::uint64_t seed_after = 1) {
-  const Joint joint = arm_and_post();
-  const std::vector<motion::MotionLimit> limits{limit_at(70, motion::LimitReason::contact)};
-  const std::vector<motion::LimitBand> of_before{before}, of_after{after};
-  return limit_differences(
-             {.joint = joint, .limits = limits, .bands = of_before, .band_options = {.samples = 20}},
-             {.joint = joint,
-              .limits = limits,
-              .bands = of_after,
-              .band_options = {.samples = 20, .seed = seed_after}})
-      .front();
+  RangeAnswer one{.joint = arm_and_post(), .limits = {limit_at(70, motion::LimitReason::contact)}}, two = one;
+  one.bands = {before}, one.band_options = {.samples = 20};
+  two.bands = {after}, two.band_options = {.samples = 20, .seed = seed_after};
+  return limit_differences(one, two).front();
 }
 
 TEST(LimitDifference, HasABandOfJointsThatAreDisplacedAlike) {

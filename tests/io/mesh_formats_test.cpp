@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <bit>
-
 #include "condyle/io/mesh_file.hpp"
 #include "support/mesh_bytes.hpp"
 #include "support/test_meshes.hpp"
@@ -11,12 +9,7 @@ namespace {
 
 /// Coordinates that a float holds, none of them a round decimal, one of them -0.
 TriMesh float_valued_mesh() {
-  TriMesh mesh = test::sphere({0.1, -20.3, 300.7}, 25.1, 2);
-  for (auto* axis : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z}) {
-    for (double& value : *axis) value = static_cast<float>(value);
-  }
-  mesh.vertices.x[3] = -0.0;
-  return mesh;
+  return test::in_floats(test::sphere({0.1, -20.3, 300.7}, 25.1, 2));
 }
 
 /// STL stores no vertex numbers: vertices come back in the order in which triangles use them.
@@ -37,21 +30,7 @@ TriMesh in_order_of_use(const TriMesh& mesh) {
   return out;
 }
 
-void expect_same_bits(const std::vector<double>& read, const std::vector<double>& written,
-                      const std::string& where) {
-  ASSERT_EQ(read.size(), written.size()) << where;
-  for (std::size_t i = 0; i < read.size(); ++i) {
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(read[i]), std::bit_cast<std::uint64_t>(written[i]))
-        << where << ", vertex " << i;
-  }
-}
-
-void expect_same_bits(const TriMesh& read, const TriMesh& written, const std::string& where) {
-  expect_same_bits(read.vertices.x, written.vertices.x, where);
-  expect_same_bits(read.vertices.y, written.vertices.y, where);
-  expect_same_bits(read.vertices.z, written.vertices.z, where);
-  EXPECT_EQ(read.triangles, written.triangles) << where;
-}
+using test::expect_same_bits;
 
 TEST(MeshFormats, EveryWayOfWritingAMeshReadsBackBitForBit) {
   const TriMesh mesh = float_valued_mesh();
@@ -89,12 +68,8 @@ TEST(MeshFormats, VtkReadsItsFilesAsWeDo) {
 
 TEST(MeshFormats, AnStlSoupIsWeldedWithoutTolerance) {
   const double next = std::nextafter(1.0, 2.0);
-  TriMesh soup;
-  for (const Vec3& p :
-       {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-0.0, 0, 0), Vec3(0, 1, -0.0), Vec3(next, 0, 0)}) {
-    soup.vertices.push_back(p);
-  }
-  soup.triangles = {{0, 1, 2}, {3, 4, 5}};
+  TriMesh soup = test::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, 0, 0}, {0, 1, -0.0}, {next, 0, 0}},
+                               {{0, 1, 2}, {3, 4, 5}});
   const auto read = io::read_mesh(test::stl_files(soup)[0].bytes, io::MeshFormat::stl, "soup.stl");
   EXPECT_EQ(read.welded_vertices, 2u);
   EXPECT_EQ(read.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));

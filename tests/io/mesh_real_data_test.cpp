@@ -11,7 +11,6 @@
 
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-
 #include "support/shared_data.hpp"
 
 namespace condyle {
@@ -19,12 +18,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::filesystem::path real_mesh_folder() {
-  return test::shared_data_folder();
-}
-
-#define SKIP_WITHOUT_DATA() \
-  if (!std::filesystem::exists(real_mesh_folder())) GTEST_SKIP() << "no real meshes at " << real_mesh_folder()
+#define SKIP_WITHOUT_DATA()                                 \
+  if (!std::filesystem::exists(test::shared_data_folder())) \
+  GTEST_SKIP() << "no real meshes at " << test::shared_data_folder()
 
 Json read_json(const std::filesystem::path& path) {
   std::ifstream file(path);
@@ -91,7 +87,7 @@ void expect_as_stated(const TriMesh& mesh, const Json& stated) {
 }
 
 void expect_folder_as_stated(const std::string& name, std::size_t meshes) {
-  const auto folder = real_mesh_folder() / name;
+  const auto folder = test::shared_data_folder() / name;
   const Json stated = read_json(folder / "meta.json");
   EXPECT_EQ(stated["meshes"].size(), meshes);
   for (const auto& mesh : stated["meshes"]) {
@@ -121,7 +117,7 @@ TEST(RealMeshes, OfTheCoarseTeachingModelAreAsStated) {
 
 TEST(RealMeshes, TheDirtyPelvisHasOneDuplicateTriangle) {
   SKIP_WITHOUT_DATA();
-  auto mesh = io::read_mesh(real_mesh_folder() / "hip_gait2392_lowres_dirty/pelvis_r.ply").mesh;
+  auto mesh = io::read_mesh(test::shared_data_folder() / "hip_gait2392_lowres_dirty/pelvis_r.ply").mesh;
   const auto report = inspect(mesh);
   EXPECT_EQ(report.duplicate_triangles.count, 1u);
   mesh.triangles.erase(mesh.triangles.begin() + *report.duplicate_triangles.first);
@@ -135,7 +131,7 @@ TEST(RealMeshes, TheDirtyPelvisHasOneDuplicateTriangle) {
 /// moved.
 TEST(RealMeshes, TheTeachingModelsVtpAndPlyAreOneSurface) {
   SKIP_WITHOUT_DATA();
-  const auto folder = real_mesh_folder() / "hip_gait2392_lowres_dirty";
+  const auto folder = test::shared_data_folder() / "hip_gait2392_lowres_dirty";
   for (const auto& [vtp, ply] : {std::pair{"femur_r.vtp", "femur_r.ply"}, {"pelvis.vtp", "pelvis_r.ply"}}) {
     const auto metres = io::read_mesh(folder / vtp).mesh, millimetres = io::read_mesh(folder / ply).mesh;
     EXPECT_EQ(metres.triangles, millimetres.triangles);
@@ -146,7 +142,7 @@ TEST(RealMeshes, TheTeachingModelsVtpAndPlyAreOneSurface) {
 
 TEST(RealMeshes, TheDirtyFemurIsAsStatedAfterTheExactWeld) {
   SKIP_WITHOUT_DATA();
-  const auto folder = real_mesh_folder() / "femur_libhip_m5_right_dirty";
+  const auto folder = test::shared_data_folder() / "femur_libhip_m5_right_dirty";
   const Json stated = read_json(folder / "meta.json");
   const auto read = io::read_mesh(folder / "femur_tracked_surface.stl");
   EXPECT_EQ(read.welded_vertices, stated["exact_duplicate_vertices"]);
@@ -156,7 +152,7 @@ TEST(RealMeshes, TheDirtyFemurIsAsStatedAfterTheExactWeld) {
 
 TEST(RealMeshes, TheMirroredBonesAreInvertedAndCarryOtherBonesVertices) {
   SKIP_WITHOUT_DATA();
-  const auto folder = real_mesh_folder() / "hip_vhf_right/dirty";
+  const auto folder = test::shared_data_folder() / "hip_vhf_right/dirty";
   auto femur = io::read_mesh(folder / "FemurL_source.obj").mesh;
   const auto report = inspect(femur);
   EXPECT_TRUE(report.is_closed());
@@ -181,7 +177,8 @@ TEST(RealMeshes, TheMirroredBonesAreInvertedAndCarryOtherBonesVertices) {
 TEST(RealMeshes, ComeBackBitForBitFromTheFilesWeWrite) {
   SKIP_WITHOUT_DATA();
   const auto mesh =
-      io::read_mesh(real_mesh_folder() / "femur_libhip_m5_right_dirty/femur_tracked_surface.stl").mesh;
+      io::read_mesh(test::shared_data_folder() / "femur_libhip_m5_right_dirty/femur_tracked_surface.stl")
+          .mesh;
   for (const char* extension : {".ply", ".vtp"}) {
     const auto path =
         std::filesystem::temp_directory_path() / ("condyle_real_" + std::to_string(::getpid()) + extension);

@@ -11,7 +11,6 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <array>
-#include <bit>
 #include <csignal>
 #include <filesystem>
 #include <iterator>
@@ -20,6 +19,8 @@
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
+#include "support/complaint.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -27,41 +28,17 @@ namespace {
 
 class WrittenMesh : public testing::Test {
  protected:
-  WrittenMesh()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("condyle_written_mesh_" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~WrittenMesh() override { std::filesystem::remove_all(folder_); }
-
-  std::ptrdiff_t files() const {
-    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
   }
 
-  std::filesystem::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
-void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(a[i]), std::bit_cast<std::uint64_t>(b[i])) << "vertex " << i;
-  }
-}
-
-void expect_same_bits(const TriMesh& a, const TriMesh& b) {
-  expect_same_bits(a.vertices.x, b.vertices.x);
-  expect_same_bits(a.vertices.y, b.vertices.y);
-  expect_same_bits(a.vertices.z, b.vertices.z);
-  EXPECT_EQ(a.triangles, b.triangles);
-}
+using test::expect_same_bits;
 
 TriMesh float_valued() {
-  TriMesh mesh = test::sphere({0.1, -20.3, 300.7}, 25.1, 3);
-  for (auto* axis : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z}) {
-    for (double& value : *axis) value = static_cast<float>(value);
-  }
-  mesh.vertices.x[0] = -0.0;
-  return mesh;
+  return test::in_floats(test::sphere({0.1, -20.3, 300.7}, 25.1, 3));
 }
 
 /// Doubles that a float would round, or that would vanish in it.
@@ -81,7 +58,7 @@ TEST_F(WrittenMesh, IsReadBackBitForBit) {
       expect_same_bits(io::read_mesh(folder_ / name).mesh, mesh);
     }
   }
-  EXPECT_EQ(files(), 4);
+  EXPECT_EQ(files(), 4u);
 }
 
 TEST_F(WrittenMesh, TakesFloatsWhereTheyLoseNothing) {
@@ -96,8 +73,8 @@ TEST_F(WrittenMesh, TakesFloatsWhereTheyLoseNothing) {
       EXPECT_EQ(with_floats.size() - with_floats.find("end_header\n") - 11, 12 * vertices + 13 * triangles);
       EXPECT_EQ(with_doubles.size() - with_doubles.find("end_header\n") - 11, 24 * vertices + 13 * triangles);
     }
-    EXPECT_NE(with_floats.find(name[2] == 'p' ? "property float x" : "Float32"), std::string::npos);
-    EXPECT_EQ(with_doubles.find(name[2] == 'p' ? "property float x" : "Float32"), std::string::npos);
+    test::expect_says(with_floats, name[2] == 'p' ? "property float x" : "Float32");
+    test::expect_silent(with_doubles, name[2] == 'p' ? "property float x" : "Float32");
   }
 }
 
@@ -176,18 +153,14 @@ TEST_F(WrittenMesh, HasEveryBitOfPointsArraysAndFieldsInBothEncodings) {
 
 TEST_F(WrittenMesh, LeavesNothingBehindWhereItCannotBeWritten) {
   const TriMesh mesh = test::box({0, 0, 0}, {1, 2, 3});
-  const auto no_folder = folder_ / "nowhere" / "a.ply";
-  try {
-    io::write_mesh(no_folder, mesh);
-    FAIL() << "written";
-  } catch (const FileError& error) {
-    EXPECT_EQ(error.what(), no_folder.string() + ": cannot be written: No such file or directory");
-  }
+  const auto no_folder = folder_ / "nowhere/a.ply";
+  EXPECT_EQ(test::complaint_of<FileError>([&] { io::write_mesh(no_folder, mesh); }),
+            no_folder.string() + ": cannot be written: No such file or directory");
   // A folder in the way: the temporary file is written, and then cannot take the name.
-  std::filesystem::create_directories(folder_ / "taken.vtp" / "inside");
+  std::filesystem::create_directories(folder_ / "taken.vtp/inside");
   EXPECT_THROW(io::write_mesh(folder_ / "taken.vtp", mesh), FileError);
   EXPECT_THROW(io::write_mesh(folder_ / "a.stl", mesh), FileError);
-  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(files(), 1u);
 }
 
 /// A limit on the size of files stands in for a full disk: writing fails halfway.
@@ -201,18 +174,13 @@ TEST_F(WrittenMesh, AFullDiskIsNoticedAndTheOldFileStays) {
   const rlimit little{1000, before.rlim_max};  // bytes
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
-  std::string complaint = "written";
-  try {
-    io::write_mesh(path, double_valued());
-  } catch (const FileError& error) {
-    complaint = error.what();
-  }
+  const std::string complaint = test::complaint_of<FileError>([&] { io::write_mesh(path, double_valued()); });
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old_handler);
 
   EXPECT_EQ(complaint, path.string() + ": cannot be written: File too large");
   EXPECT_EQ(io::read_mesh(path).mesh, old);
-  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(WrittenMesh, TakesThePlaceOfAnOlderOneOnlyWhenWhole) {
@@ -220,7 +188,7 @@ TEST_F(WrittenMesh, TakesThePlaceOfAnOlderOneOnlyWhenWhole) {
   io::write_mesh(path, test::box({0, 0, 0}, {1, 1, 1}));
   io::write_mesh(path, test::box({0, 0, 0}, {2, 2, 2}));
   EXPECT_EQ(io::read_mesh(path).mesh, test::box({0, 0, 0}, {2, 2, 2}));
-  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(files(), 1u);
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/depth_result.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -29,30 +30,11 @@ constexpr double spacing = 0.5;
 
 /// A flat square of side 20 in y = 0, normal +y, with a vertex in its middle.
 TriMesh sheet() {
-  constexpr int n = 40;
-  TriMesh mesh;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) mesh.vertices.push_back({spacing * (i - n / 2), 0, spacing * (j - n / 2)});
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = 0; j < n; ++j) {
-      const Index a = i * (n + 1) + j, b = a + n + 1;
-      mesh.triangles.push_back({a, a + 1, b});
-      mesh.triangles.push_back({b, a + 1, b + 1});
-    }
-  }
-  return mesh;
+  return test::plane(10, 40);
 }
 const TriMesh& ball() {
   static const TriMesh mesh = test::sphere(Vec3::Zero(), R, 6);
   return mesh;
-}
-
-double longest_edge(const TriMesh& mesh) {
-  double longest = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const int k : {0, 1, 2})
-      longest = std::max(longest, (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).norm());
-  return longest;
 }
 
 Joint joint_of(Body fixed, Body mobile) {
@@ -106,7 +88,7 @@ TEST(NormalDepthResult, ABallInASheetIsAsDeepAsItsCap) {
   // The ball's mesh sags by up to edge^2 / 4 R (docs/mathematics/08-known-answers.md), upwards by R / y of that at the
   // height y, and a depth taken as linear along edges e of the sheet falls short by up to e^2 / 8 times its curvature, R^2 / y^3. Both are
   // largest an edge beyond the border. What is found is then between the cap's figures and those of a sheet so much higher.
-  const double e = std::numbers::sqrt2 * spacing, edge = longest_edge(ball());
+  const double e = std::numbers::sqrt2 * spacing, edge = inspect(ball()).edge_lengths.longest;
   const double y = std::sqrt(R * R - std::pow(std::sqrt(R * R - h * h) + e, 2));
   const double off = e * e / 8 * R * R / (y * y * y) + edge * edge / (4 * R) * R / y;
   const auto area = [](double height) { return std::numbers::pi * (R * R - height * height); };
@@ -138,10 +120,10 @@ TEST(NormalDepthResult, OnlyTheBodyThatCastsHasFiguresAndArrays) {
   const Json json = Json::parse(result.json);
   EXPECT_TRUE(json["bodies"]["mobile"].is_null());
   EXPECT_EQ(json["rays"]["casting"], "fixed");
-  EXPECT_EQ(result.text.find("from ball"), std::string::npos);
-  EXPECT_NE(result.text.find("  from sheet to ball: "), std::string::npos);
-  EXPECT_NE(result.text.find("depth along normals "), std::string::npos);
-  EXPECT_NE(result.text.find(", 1.000 at most, triangle "), std::string::npos) << result.text;
+  test::expect_silent(result.text, "from ball");
+  test::expect_says(result.text, "  from sheet to ball: ");
+  test::expect_says(result.text, "depth along normals ");
+  test::expect_says(result.text, ", 1.000 at most, triangle ");
 
   EXPECT_EQ(array_named(result.mobile.triangles, "depth_mm"), nullptr);
   ASSERT_EQ(result.fixed.triangles.size(), 3u);
@@ -195,8 +177,8 @@ TEST(NormalDepthResult, WithoutContactThereAreNoDepthsAndNoCentre) {
     for (const char* key : {"deepest_triangle", "centre_mm", "centre_own_mm"})
       EXPECT_TRUE(figures[key].is_null()) << key;
   }
-  EXPECT_NE(result.text.find("  free; 0 intersecting"), std::string::npos);
-  EXPECT_NE(result.text.find("  from ball to sheet: no depth along normals\n"), std::string::npos);
+  test::expect_says(result.text, "  free; 0 intersecting");
+  test::expect_says(result.text, "  from ball to sheet: no depth along normals\n");
 }
 
 TEST(NormalDepthResult, RaysFromTheFrontAndBeyondTheReachAreCounted) {
@@ -212,25 +194,22 @@ TEST(NormalDepthResult, RaysFromTheFrontAndBeyondTheReachAreCounted) {
   const Json bodies = Json::parse(far.json)["bodies"];
   EXPECT_GT(bodies["mobile"]["met_from_front"], 0);
   EXPECT_EQ(bodies["fixed"]["met_from_front"], 0) << "the ball is closed";
-  EXPECT_NE(far.text.find("rays met sheet, which is open, from its front"), std::string::npos) << far.text;
-  EXPECT_NE(result_of(ball_on_sheet(), at_height(h), {.rays = {.reach_mm = 0.9}})
-                .text.find("the reach of 0.9 mm cuts off "),
-            std::string::npos);
+  test::expect_says(far.text, "rays met sheet, which is open, from its front");
+  test::expect_says(result_of(ball_on_sheet(), at_height(h), {.rays = {.reach_mm = 0.9}}).text,
+                    "the reach of 0.9 mm cuts off ");
 }
 
 TEST(NormalDepthResult, AnOverlapOfSheetsThatDoNotMeetIsSaid) {
   // A lid within the bounds of a larger sheet above it: rays down from the large one's middle meet the lid from behind.
-  TriMesh lid;
-  for (const Vec3& corner : {Vec3(-2, 0, -2), Vec3(0, 0, 2), Vec3(2, 0, -2)}) lid.vertices.push_back(corner);
-  lid.triangles = {{0, 2, 1}};
+  const TriMesh lid = test::mesh_of({{-2, 0, -2}, {0, 0, 2}, {2, 0, -2}}, {{0, 2, 1}});
   const Joint joint = joint_of({"sheet", sheet()}, {"lid", lid});
   const io::DepthResult below = result_of(joint, at_height(-1), {.casting = contact::Casting::fixed});
   const Json json = Json::parse(below.json);
   EXPECT_FALSE(json["in_contact"]);
   EXPECT_NEAR(json["bodies"]["fixed"]["max_normal_depth_mm"].get<double>(), 1, 1e-12);
   EXPECT_GT(json["bodies"]["fixed"]["rim_faces"], 0);
-  EXPECT_NE(below.text.find("  the surfaces do not meet: "), std::string::npos) << below.text;
-  EXPECT_NE(below.text.find(" triangles at the rim of lid, "), std::string::npos) << below.text;
+  test::expect_says(below.text, "  the surfaces do not meet: ");
+  test::expect_says(below.text, " triangles at the rim of lid, ");
 }
 
 TEST(NormalDepthResult, TheDeepestTriangleIsOfAPart) {
@@ -245,8 +224,8 @@ TEST(NormalDepthResult, TheDeepestTriangleIsOfAPart) {
   EXPECT_EQ(deepest["deepest_part"]["name"], "near");
   EXPECT_EQ(deepest["deepest_part"]["triangle"].get<std::size_t>(),
             deepest["deepest_triangle"].get<std::size_t>() - first);
-  EXPECT_NE(result.text.find(" of near)\n"), std::string::npos) << result.text;
-  EXPECT_NE(result.pairs.find(",,near\n"), std::string::npos);
+  test::expect_says(result.text, " of near)\n");
+  test::expect_says(result.pairs, ",,near\n");
 }
 
 TEST(NormalDepthResult, IsWrittenWithItsTriangles) {
@@ -266,8 +245,8 @@ TEST(NormalDepthResult, IsWrittenWithItsTriangles) {
         << array;
   }
   EXPECT_EQ(io::read_mesh(folder / "out/mobile.vtp").mesh, posed(at_height(h), ball()));
-  EXPECT_NE(io::read_whole_file(folder / "out/fixed.csv").find("vertex,x_mm,y_mm,z_mm,nearest_distance_mm\n"),
-            std::string::npos);
+  test::expect_says(io::read_whole_file(folder / "out/fixed.csv"),
+                    "vertex,x_mm,y_mm,z_mm,nearest_distance_mm\n");
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "condyle/joint_coordinates.hpp"
 #include "io/picture/colour_scale.hpp"
 #include "support/test_meshes.hpp"

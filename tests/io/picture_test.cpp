@@ -19,6 +19,7 @@
 #include "io/picture/legend.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/subdivide.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -228,8 +229,7 @@ TEST(PictureColours, HatchDepthsThatAreOnlyBounds) {
   Joint joint =
       joint_of(fine_box({-200, -50, -200}, {200, 50, 200}), fine_box({140, 46, -10}, {160, 47, 10}));
   joint.kind = JointKind::free;
-  Pose X_FM = Pose::Identity();
-  X_FM.translation() = Vec3(1e-9, 0, 0);  // so that no arcs are asked for
+  Pose X_FM(Eigen::Translation3d(1e-9, 0, 0));  // so that no arcs are asked for
   const io::PictureOptions options{.view = io::view_named("superior", Side::right),
                                    .fixed = io::BodyStyle::hidden,
                                    .width = 400,
@@ -304,8 +304,7 @@ TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
       measure::RimGeometry{Vec3(0, 0, 10), Vec3::UnitZ(), 30, {Vec3::UnitY(), Vec3::UnitX()}};
   measures.acetabulum.rim = {
       {0, Vec3(0, 30, 10), 0, 0, true}, {1, Vec3(5, -20, 12), 0, 0, false}, {2, {}, 0, 0, false}};
-  Pose X_FM = Pose::Identity();
-  X_FM.translation() = Vec3(100, 0, 0);
+  Pose X_FM(Eigen::Translation3d(100, 0, 0));
   const std::vector<io::PictureMark> marks = io::measure_marks(measures, X_FM);
   ASSERT_EQ(marks.size(), 5u);
   const auto expect_bounds = [](const TriMesh& mesh, const Vec3& low, const Vec3& high, const char* what) {
@@ -517,7 +516,7 @@ TEST(PicturePng, ReadsBackWithItsProvenance) {
       for (int k = 0; k < 3; ++k)
         ASSERT_EQ(image.GetScalarComponentAsDouble(column, 63 - row, 0, k),
                   picture.rgb[static_cast<std::size_t>(3 * (row * 80 + column) + k)]);
-  EXPECT_NE(io::read_whole_file(folder / "new/p.png").find("picture joint.toml"), std::string::npos);
+  expect_says(io::read_whole_file(folder / "new/p.png"), "picture joint.toml");
   folder.file("file", "in the way");
   EXPECT_THROW(io::write_png(folder / "file/p.png", picture), FileError);
 }

@@ -1,4 +1,3 @@
-
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -6,6 +5,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "support/joint_text.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
@@ -18,14 +18,16 @@ namespace {
 /// From the joint axes of the shared hips (X anterior, Y superior, Z right) to those of an image.
 enum class Axes { joint, ras, lps };
 
-TriMesh as_exported(TriMesh mesh, Axes axes, double scale) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec3 p = scale * mesh.vertices[v];
-    mesh.vertices.set(v, axes == Axes::joint ? p
-                         : axes == Axes::ras ? Vec3(p.z(), p.x(), p.y())
-                                             : Vec3(-p.z(), -p.x(), p.y()));
-  }
-  return mesh;
+TriMesh as_exported(const TriMesh& mesh, Axes axes, double scale) {
+  return mapped(scaled_by(mesh, scale), [&](const Vec3& p) -> Vec3 {
+    if (axes == Axes::joint) return p;
+    return axes == Axes::ras ? Vec3(p.z(), p.x(), p.y()) : Vec3(-p.z(), -p.x(), p.y());
+  });
+}
+
+std::string fitted_hip(std::string_view side) {
+  return joint_text(
+      {.side = side, .fixed = "mesh = \"bone.ply\"", .mobile = "mesh = \"thigh.ply\"", .centre = "\"fit\""});
 }
 
 struct Hip {
@@ -52,8 +54,7 @@ class ProposedHip : public testing::TestWithParam<Hip> {
     return io::propose_joint({folder_ / "bone.ply", folder_ / "thigh.ply", folder_ / "joint.toml", side, {}});
   }
   io::LoadedJoint read(const std::string& toml) const {
-    std::ofstream(folder_ / "joint.toml") << toml;
-    return io::read_joint(folder_ / "joint.toml");
+    return io::read_joint(folder_.file("joint.toml", toml));
   }
   static std::vector<double> limits(const Joint& joint) {
     std::vector<double> out;
@@ -71,12 +72,7 @@ INSTANTIATE_TEST_SUITE_P(SharedData, ProposedHip, testing::ValuesIn(hips),
 TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
   io::write_mesh(folder_ / "bone.ply", fixed_);
   io::write_mesh(folder_ / "thigh.ply", mobile_);
-  const std::string side = GetParam().side == Side::right ? "right" : "left";
-  const auto by_hand =
-      limits(read("condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"" + side +
-                  "\"\nunits = \"mm\"\n[fixed]\nmesh = \"bone.ply\"\n[mobile]\nmesh = \"thigh.ply\"\n"
-                  "[frame]\ncentre = \"fit\"\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n")
-                 .joint);
+  const auto by_hand = limits(read(fitted_hip(name_of(GetParam().side))).joint);
   for (const Axes axes : {Axes::joint, Axes::ras, Axes::lps}) {
     for (const double scale : {1.0, 0.001}) {
       if (axes == Axes::joint && scale != 1) continue;
@@ -84,7 +80,7 @@ TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
       const io::JointProposal proposal = proposed(axes, scale);
       EXPECT_TRUE(proposal.to_fill_in.empty()) << proposal.to_fill_in.front();
       for (const char* minus_zero : {"-0,", "-0]", "-0.00,", "-0.00)", " -0 "})
-        EXPECT_EQ(proposal.toml.find(minus_zero), std::string::npos) << proposal.toml;
+        expect_silent(proposal.toml, minus_zero);
       const io::LoadedJoint loaded = read(proposal.toml);
       EXPECT_EQ(loaded.joint.side, GetParam().side);
       const auto found = limits(loaded.joint);
@@ -102,24 +98,20 @@ TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
   const TriMesh fixed = read_ply(*data / "hip_libhip_m1_left/hip_bone.ply"),
                 mobile = read_ply(*data / "hip_libhip_m1_left/femur.ply");
   const auto limits_of = [&](const std::string& toml) {
-    std::ofstream(folder / "joint.toml") << toml;
-    const Joint joint = io::read_joint(folder / "joint.toml").joint;
+    const Joint joint = io::read_joint(folder.file("joint.toml", toml)).joint;
     EXPECT_EQ(joint.side, Side::left);
     return motion::RangeOfMotion(joint).limits(motion::hip_motions());
   };
   io::write_mesh(folder / "bone.ply", fixed);
   io::write_mesh(folder / "thigh.ply", mobile);
-  const auto by_hand = limits_of(
-      "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"left\"\nunits = \"mm\"\n"
-      "[fixed]\nmesh = \"bone.ply\"\n[mobile]\nmesh = \"thigh.ply\"\n"
-      "[frame]\ncentre = \"fit\"\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
+  const auto by_hand = limits_of(fitted_hip("left"));
   io::write_mesh(folder / "bone.ply", as_exported(fixed, Axes::lps, 0.001));
   io::write_mesh(folder / "thigh.ply", as_exported(mobile, Axes::lps, 0.001));
   const io::JointProposal proposal =
       io::propose_joint({folder / "bone.ply", folder / "thigh.ply", folder / "joint.toml", {}, {}});
   ASSERT_TRUE(proposal.to_fill_in.empty()) << proposal.to_fill_in.front();
-  EXPECT_NE(proposal.toml.find("units = \"m\""), std::string::npos) << proposal.toml;
-  EXPECT_NE(proposal.toml.find("anterior = [0, -1, 0]"), std::string::npos) << proposal.toml;
+  expect_says(proposal.toml, "units = \"m\"");
+  expect_says(proposal.toml, "anterior = [0, -1, 0]");
   const auto found = limits_of(proposal.toml);
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i].end.turned.degrees(), by_hand[i].end.turned.degrees(), 0.1) << found[i].motion.name;
@@ -129,17 +121,16 @@ TEST_P(ProposedHip, InCentimetresOrInchesNamesThatUnit) {
   const auto in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
   for (const auto& [word, mm] : {std::pair{"cm", 10.0}, std::pair{"in", 25.4}}) {
     const io::JointProposal proposal = proposed(Axes::joint, 1 / mm);
-    EXPECT_NE(proposal.toml.find(std::string("units = \"") + word), std::string::npos) << proposal.toml;
+    expect_says(proposal.toml, std::string("units = \"") + word);
     const auto found = limits(read(proposal.toml).joint);
     // Vertices are floats, a tenth of a micrometre off; a micrometre moves no limit of these hips by a hundredth of a degree.
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], in_mm[i], 0.01) << word;
-    EXPECT_NE(proposal.units_note.find("--units mm, or --species of an animal"), std::string::npos);
+    expect_says(proposal.units_note, "--units mm, or --species of an animal");
   }
 }
 
 TEST_P(ProposedHip, OfAnimalsOfAnySizeIsInMillimetresWithDeviationsOfItsHead) {
-  EXPECT_NE(proposed(Axes::joint, 0.02).to_fill_in.at(0).find("--units mm, cm, in or m says which"),
-            std::string::npos);
+  expect_says(proposed(Axes::joint, 0.02).to_fill_in.at(0), "--units mm, cm, in or m says which");
   const auto in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
   for (const double scale : {0.02, 0.125, 2.5}) {
     (void)proposed(Axes::joint, scale);
@@ -166,7 +157,7 @@ TEST_P(ProposedHip, OfTwoUnitsScalesOneBody) {
   io::write_mesh(folder_ / "thigh.ply", as_exported(mobile_, Axes::joint, 0.1));
   const io::JointProposal proposal =
       io::propose_joint({folder_ / "bone.ply", folder_ / "thigh.ply", folder_ / "joint.toml", {}, {}});
-  EXPECT_NE(proposal.toml.find("scale = [10, 10, 10]"), std::string::npos) << proposal.toml;
+  expect_says(proposal.toml, "scale = [10, 10, 10]");
   const auto found = limits(read(proposal.toml).joint),
              in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], in_mm[i], 0.01);
@@ -176,7 +167,7 @@ TEST_P(ProposedHip, OfTheWrongSideIsNotGuessed) {
   const Side wrong = GetParam().side == Side::right ? Side::left : Side::right;
   const io::JointProposal proposal = proposed(Axes::ras, 1, wrong);
   ASSERT_EQ(proposal.to_fill_in.size(), 2u);
-  EXPECT_TRUE(proposal.to_fill_in[0].starts_with("anterior: the bones agree with none"));
+  expect_begins(proposal.to_fill_in[0], "anterior: the bones agree with none");
   EXPECT_THROW(read(proposal.toml), FileError) << "not to be read before it is filled in";
 }
 
@@ -204,7 +195,7 @@ TEST(ProposedJoint, OfTwoBoxesIsToBeFilledIn) {
   EXPECT_TRUE(std::filesystem::equivalent(
       io::read_joint_file(folder / "sub" / "joint.toml").fixed.meshes[0].mesh, folder / "a \"quoted\".ply"))
       << filled;
-  EXPECT_NE(proposal.toml.find("units = \"m\"  # given"), std::string::npos);
+  expect_says(proposal.toml, "units = \"m\"  # given");
   EXPECT_THROW(io::propose_joint({folder / "none.ply", folder / "b.ply", folder / "j.toml", {}, {}}),
                FileError);
 }

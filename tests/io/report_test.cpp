@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
@@ -14,6 +12,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/report/page.hpp"
 #include "rom_scene.hpp"
+#include "support/complaint.hpp"
 #include "support/report_block.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -22,19 +21,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Equal to the bit, the sign of 0 included.
-void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(a[i]), std::bit_cast<std::uint64_t>(b[i])) << i;
+ReportBlock block_of(const io::Report& report) {
+  return report_block(io::report_html(report));
 }
 
 /// Coordinates that no short decimal is equal to.
 Joint odd_joint() {
   Joint joint = arm_and_post();
-  TriMesh arm = joint.mobile.mesh.arrays();
-  for (std::size_t v = 0; v < arm.vertices.size(); ++v)
-    arm.vertices.set(v, arm.vertices[v] + Vec3(0.1, -1e-17, 1.0 / 3));
+  TriMesh arm = shifted_by(joint.mobile.mesh.arrays(), Vec3(0.1, -1e-17, 1.0 / 3));
   arm.vertices.z[0] = -0.0;
   joint.mobile.mesh = arm;
   joint.mobile.parts = {{"shaft", 0, 4, 0, 6}, {"head", 4, 4, 6, 6, PartContact::bearing}};
@@ -55,8 +49,7 @@ void expect_is(const ReportBlock& block, const std::string& role, const Mesh& me
 TEST(Report, HasTheJointToTheBit) {
   const Joint joint = odd_joint();
   const JointCoordinates reference{.angles = {Angle::degrees(30), Angle::degrees(-7), {}}};
-  const ReportBlock block =
-      report_block(io::report_html({.title = "a title", .joint = joint, .reference_pose = reference}));
+  const ReportBlock block = block_of({.title = "a title", .joint = joint, .reference_pose = reference});
   expect_is(block, "fixed", joint.fixed.mesh);
   expect_is(block, "mobile", joint.mobile.mesh);
   EXPECT_EQ(block.json["title"], "a title");
@@ -92,20 +85,19 @@ struct Answered {
         answer{
             .joint = joint, .limits = limits, .bearing = range.bearing(), .caveats = {"a term"}, .map = map} {
   }
-  io::RomResult rom() const { return {joint, answer}; }
 
   Joint joint;
   motion::RangeOfMotion range;
   std::vector<motion::MotionLimit> limits;
   motion::MotionMap map;
   RangeAnswer answer;
+  io::RomResult rom{joint, answer};
 };
 
 TEST(Report, SaysOfLimitsWhatRomSays) {
   const Answered answer(odd_joint());
-  const io::RomResult rom = answer.rom();
-  const ReportBlock block = report_block(io::report_html({.title = "", .joint = answer.joint, .rom = &rom}));
-  Json said = Json::parse(io::rom_json(rom));
+  const ReportBlock block = block_of({.title = "", .joint = answer.joint, .rom = &answer.rom});
+  Json said = Json::parse(io::rom_json(answer.rom));
   said["map"].erase("intervals");  // the page has them under "map"
   EXPECT_EQ(block.json["rom"], said);
   EXPECT_FALSE(block.json.contains("rom_error"));
@@ -121,7 +113,7 @@ TEST(Report, HasWhatContactOfEachTriangleMeans) {
   roles.fixed.assign(12, motion::ContactRole::soft);
   const RangeAnswer without{.joint = joint, .bearing = {.roles = roles}};
   const io::RomResult rom{joint, without};
-  const ReportBlock block = report_block(io::report_html({.title = "", .joint = joint, .rom = &rom}));
+  const ReportBlock block = block_of({.title = "", .joint = joint, .rom = &rom});
   EXPECT_EQ(block.array<std::uint8_t>("mobile_roles", "u8"),
             (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 3, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(block.array<std::uint8_t>("fixed_roles", "u8"), std::vector<std::uint8_t>(12, 2));
@@ -129,9 +121,7 @@ TEST(Report, HasWhatContactOfEachTriangleMeans) {
 
 TEST(Report, HasAllFreeIntervalsOfAMap) {
   const Answered answer(arm_and_post());
-  const io::RomResult rom = answer.rom();
-  const Json map =
-      report_block(io::report_html({.title = "", .joint = answer.joint, .rom = &rom})).json["map"];
+  const Json map = block_of({.title = "", .joint = answer.joint, .rom = &answer.rom}).json["map"];
   EXPECT_EQ(map["columns"], Json({{"angle", "internal_rotation"},
                                   {"opposite", "external_rotation"},
                                   {"values_deg", {-20.0, -10.0, 0.0, 10.0, 20.0}}}));
@@ -158,8 +148,7 @@ TEST(Report, HasAllFreeIntervalsOfAMap) {
 
 TEST(Report, HasRadialGapsInTheReferencePoseAndAtEveryLimit) {
   const Answered answer(arm_and_post());
-  const io::RomResult rom = answer.rom();
-  const ReportBlock block = report_block(io::report_html({.title = "", .joint = answer.joint, .rom = &rom}));
+  const ReportBlock block = block_of({.title = "", .joint = answer.joint, .rom = &answer.rom});
   const Json& poses = block.json["poses"];
   ASSERT_EQ(poses.size(), 1 + answer.limits.size());
   EXPECT_EQ(poses[0]["name"], "reference");
@@ -200,13 +189,12 @@ TEST(Report, HasOfAJointBeforeItsLimitsAndTheBodiesThatChanged) {
   Joint moved = arm_and_post();
   moved.fixed.mesh = box({50, -120, -50}, {70, -80, 50});
   const Answered after(moved);
-  const io::RomResult rom = after.rom(), rom_before = before.rom();
   const io::Report report{
       .title = "",
       .joint = after.joint,
-      .rom = &rom,
-      .before = io::ReportedBefore{.joint = before.joint, .file = "folder/before.toml", .rom = &rom_before}};
-  const ReportBlock block = report_block(io::report_html(report));
+      .rom = &after.rom,
+      .before = io::ReportedBefore{.joint = before.joint, .file = "folder/before.toml", .rom = &before.rom}};
+  const ReportBlock block = block_of(report);
   const Json& found = block.json["before"];
   EXPECT_EQ(found["file"], "before.toml");
   EXPECT_EQ(found["joint"], Json({{"name", "arm and post"}, {"fixed", "post"}, {"mobile", "arm"}}));
@@ -216,8 +204,7 @@ TEST(Report, HasOfAJointBeforeItsLimitsAndTheBodiesThatChanged) {
             Json({{"vertices", "before_fixed_vertices"}, {"triangles", "fixed_triangles"}}))
       << "its triangles are the same";
   expect_same_bits(block.array<double>("before_fixed_vertices", "f64"),
-                   report_block(io::report_html({.title = "", .joint = before.joint}))
-                       .array<double>("fixed_vertices", "f64"));
+                   block_of({.title = "", .joint = before.joint}).array<double>("fixed_vertices", "f64"));
   ASSERT_EQ(found["differences"].size(), after.limits.size());
   for (std::size_t i = 0; i < after.limits.size(); ++i) {
     const Json& difference = found["differences"][i];
@@ -232,18 +219,18 @@ TEST(Report, HasOfAJointBeforeItsLimitsAndTheBodiesThatChanged) {
 
 TEST(Report, SaysWhyAJointBeforeHasNoLimits) {
   const Joint joint = arm_and_post();
-  const ReportBlock block = report_block(io::report_html(
+  const ReportBlock block = block_of(
       {.title = "",
        .joint = joint,
        .rom_error = "here",
-       .before = io::ReportedBefore{.joint = joint, .file = {}, .rom = nullptr, .rom_error = "there"}}));
+       .before = io::ReportedBefore{.joint = joint, .file = {}, .rom = nullptr, .rom_error = "there"}});
   const Json& before = block.json["before"];
   EXPECT_EQ(before["file"], nullptr);
   EXPECT_EQ(before["rom"], nullptr);
   EXPECT_EQ(before["rom_error"], "there");
   EXPECT_EQ(before["differences"], Json::array());
   EXPECT_EQ(before["surfaces"], Json({{"fixed", nullptr}, {"mobile", nullptr}}));
-  EXPECT_FALSE(report_block(io::report_html({.title = "", .joint = joint})).json.contains("before"));
+  EXPECT_FALSE(block_of({.title = "", .joint = joint}).json.contains("before"));
 }
 
 TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
@@ -251,8 +238,7 @@ TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
   TriMesh post = joint.fixed.mesh.arrays();
   post.triangles.pop_back();
   joint.fixed.mesh = post;
-  const ReportBlock block =
-      report_block(io::report_html({.title = "", .joint = joint, .rom_error = "post: is <open>"}));
+  const ReportBlock block = block_of({.title = "", .joint = joint, .rom_error = "post: is <open>"});
   EXPECT_EQ(block.json["rom"], nullptr);
   EXPECT_EQ(block.json["map"], nullptr);
   EXPECT_EQ(block.json["rom_error"], "post: is <open>");
@@ -263,7 +249,7 @@ TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
 TEST(Report, StoresNoPosesWhereTheCentreLiesOnASurface) {
   Joint joint = arm_and_post();
   joint.mobile.mesh = box({-1, -100, -2}, {1, 0, 2});
-  const ReportBlock block = report_block(io::report_html({.title = "", .joint = joint}));
+  const ReportBlock block = block_of({.title = "", .joint = joint});
   EXPECT_EQ(block.json["poses"], Json::array());
   expect_is(block, "mobile", joint.mobile.mesh);
 }
@@ -272,7 +258,7 @@ TEST(Report, StoresNoPosesWhereTheCentreLiesOnASurface) {
 TEST(Report, NamesTheAnatomyThatAHingeOfNoJointTurnsAs) {
   Joint joint = arm_and_post();
   joint.kind = JointKind::hinge;
-  EXPECT_EQ(report_block(io::report_html({.title = "", .joint = joint})).json["joint"]["anatomy"], "hip");
+  EXPECT_EQ(block_of({.title = "", .joint = joint}).json["joint"]["anatomy"], "hip");
 }
 
 TEST(Report, HasFramesOfARecordedMotionWithItsGaps) {
@@ -286,8 +272,8 @@ TEST(Report, HasFramesOfARecordedMotionWithItsGaps) {
   MotionAnswer answer;
   answer.frames = {motion::FrameContact{.X_FM = Pose::Identity(), .smallest_gap_mm = 12.5}, std::nullopt,
                    motion::FrameContact{.X_FM = bent, .smallest_gap_mm = 1.0 / 3}};
-  const ReportBlock block = report_block(io::report_html(
-      {.title = "", .joint = loaded.joint, .recorded = io::ReportedMotion{"walk", question, answer}}));
+  const ReportBlock block = block_of(
+      {.title = "", .joint = loaded.joint, .recorded = io::ReportedMotion{"walk", question, answer}});
   const Json& recorded = block.json["recorded"];
   EXPECT_EQ(recorded["name"], "walk");
   EXPECT_EQ(recorded["axis"], "time_s");
@@ -337,14 +323,12 @@ TEST(Report, AnyTextStaysTextAndNeverBecomesMarkup) {
 TEST(Report, ReplacesBytesThatAreNoText) {
   Joint joint = arm_and_post();
   joint.name = "a\xFFz";
-  EXPECT_EQ(report_block(io::report_html({.title = "", .joint = joint})).json["joint"]["name"],
-            "a\xEF\xBF\xBDz");
+  EXPECT_EQ(block_of({.title = "", .joint = joint}).json["joint"]["name"], "a\xEF\xBF\xBDz");
 }
 
 TEST(Report, IsTheSameBytesOnOneThreadAndOnMany) {
   const Answered answer(arm_and_post());
-  const io::RomResult rom = answer.rom();
-  const io::Report report{.title = "", .joint = answer.joint, .rom = &rom};
+  const io::Report report{.title = "", .joint = answer.joint, .rom = &answer.rom};
   const std::string many = io::report_html(report);
   const core::ThreadLimit one(1);
   EXPECT_EQ(io::report_html(report), many);
@@ -370,8 +354,8 @@ TEST(ReportPage, NeedsExactlyOnePlaceForTheData) {
   EXPECT_THROW(io::page_with("<html></html>", "data"), std::logic_error);
   EXPECT_THROW(io::page_with("<!--condyle-data--><!--condyle-data-->", "data"), std::logic_error);
   const std::string page = io::page_with("before<!--condyle-data-->after", "data");
-  EXPECT_TRUE(page.starts_with("before<script type=\"application/octet-stream\" id=\"condyle-data\">"));
-  EXPECT_TRUE(page.ends_with("</script>after"));
+  expect_begins(page, "before<script type=\"application/octet-stream\" id=\"condyle-data\">");
+  expect_ends(page, "</script>after");
 }
 
 TEST(ReportPage, TheTemplateInTheProgramIsThatOfTheRepository) {
@@ -396,8 +380,7 @@ TEST(Report, HasThePartsThatTurnAndTheBodiesAsGivenWhereTheyTurned) {
   const Joint given = turning_joint();
   const ParameterValue values[] = {{"arm.turn", 1.0 / 3}};
   const Joint joint = with_parameters(given, values);
-  const ReportBlock block =
-      report_block(io::report_html({.title = "a title", .joint = joint, .bearing_margin_mm = 1.5}));
+  const ReportBlock block = block_of({.title = "a title", .joint = joint, .bearing_margin_mm = 1.5});
   const Json& posed = block.json["posed"];
   EXPECT_EQ(posed["bearing_margin_mm"], 1.5);
   const Json& part = posed["parts"][0];
@@ -425,7 +408,7 @@ TEST(Report, HasThePartsThatTurnAndTheBodiesAsGivenWhereTheyTurned) {
 
 TEST(Report, HasNoPartsOfAJointWithout) {
   const Joint joint = odd_joint();
-  EXPECT_FALSE(report_block(io::report_html({.title = "a title", .joint = joint})).json.contains("posed"));
+  EXPECT_FALSE(block_of({.title = "a title", .joint = joint}).json.contains("posed"));
 }
 
 }  // namespace

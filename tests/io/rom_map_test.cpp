@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -9,6 +8,7 @@
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
 #include "rom_scene.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle::test {
@@ -44,7 +44,7 @@ TEST(MapCsv, HasALinePerPointWithBothLimitsToTheLastBit) {
   std::istringstream in(io::map_csv(map));
   std::string line;
   std::getline(in, line);
-  EXPECT_TRUE(line.starts_with("adduction_deg,internal_rotation_deg,flexion_lower_deg,flexion_upper_deg,"));
+  expect_begins(line, "adduction_deg,internal_rotation_deg,flexion_lower_deg,flexion_upper_deg,");
   const auto fields = std::count(line.begin(), line.end(), ',');
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     ASSERT_TRUE(std::getline(in, line));
@@ -176,9 +176,9 @@ TEST(MapIntervalsCsv, HasALinePerIntervalWithBothEndsToTheLastBit) {
   std::istringstream in(io::map_intervals_csv(map));
   std::string line;
   std::getline(in, line);
-  EXPECT_TRUE(
-      line.starts_with("adduction_deg,internal_rotation_deg,flexion_low_deg,flexion_high_deg,holds_start,low_"
-                       "reason,low_contact_kind,"));
+  expect_begins(line,
+                "adduction_deg,internal_rotation_deg,flexion_low_deg,flexion_high_deg,holds_start,low_"
+                "reason,low_contact_kind,");
   for (std::size_t i = 0; i < map.points.size(); ++i)
     for (const motion::FreeInterval& free : map.points[i].intervals) {
       ASSERT_TRUE(std::getline(in, line));

@@ -14,11 +14,19 @@
 #include "io/result/clock_text.hpp"
 #include "io/result/scope_text.hpp"
 #include "rom_scene.hpp"
+#include "support/complaint.hpp"
 
 namespace condyle::test {
 namespace {
 
 using Json = nlohmann::json;
+
+Json json_of(const RangeAnswer& answer) {
+  return Json::parse(io::rom_json(shown(answer)));
+}
+std::string text_of(const RangeAnswer& answer, io::TextForm form = io::TextForm::brief) {
+  return io::rom_text(shown(answer), form);
+}
 
 /// Numbers that no short decimal is equal to, and every kind of feature.
 std::vector<motion::MotionLimit> some_limits() {
@@ -67,11 +75,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   const Joint joint = arm_and_post();
   const std::vector<motion::MotionLimit> limits = some_limits();
-  const Json json = Json::parse(io::rom_json(shown({.joint = joint,
-                                                    .limits = limits,
-                                                    .bearing = {some_bearing(), {}},
-                                                    .bearing_rule = motion::BearingRule::leave_out,
-                                                    .caveats = {"a term"}})));
+  const Json json = json_of({.joint = joint,
+                             .limits = limits,
+                             .bearing = {some_bearing(), {}},
+                             .bearing_rule = motion::BearingRule::leave_out,
+                             .caveats = {"a term"}});
   EXPECT_EQ(json["condyle"], 1);
   EXPECT_EQ(json["joint"], "arm and post");
   EXPECT_EQ(json["fixed"], "post");
@@ -85,7 +93,7 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   EXPECT_EQ(json["bearing"]["rim_gap_mm"], 2.25);
   EXPECT_EQ(json["bearing"]["triangles"], 2);
   EXPECT_TRUE(json["bearing"]["socket"].is_null());
-  EXPECT_NE(json["scope"].get<std::string>().find("not a medical device"), std::string::npos);
+  expect_says(json["scope"].get<std::string>(), "not a medical device");
   EXPECT_FALSE(json.contains("map"));
   ASSERT_EQ(json["motions"].size(), 3u);
 
@@ -146,13 +154,13 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   EXPECT_EQ(commas(lines[1]), commas(lines[0]));
   EXPECT_EQ(commas(lines[2]), commas(lines[0]) + 1);  // one in a quoted name
   EXPECT_EQ(commas(lines[3]), commas(lines[0]));
-  EXPECT_TRUE(lines[2].starts_with("\"own, \"\"odd\"\" motion\",40,end_of_range,,"));
+  expect_begins(lines[2], "\"own, \"\"odd\"\" motion\",40,end_of_range,,");
   double turned = 0;
   const char* digits = lines[1].c_str() + std::string("flexion,").size();
   std::from_chars(digits, lines[1].c_str() + lines[1].size(), turned);
   EXPECT_EQ(turned, limits[0].end.turned.degrees());
-  EXPECT_NE(lines[1].find(",edge 3-17,face 40,"), std::string::npos);
-  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,,,,,,,end_unknown")) << lines[3];
+  expect_says(lines[1], ",edge 3-17,face 40,");
+  expect_ends(lines[3], ",,,,,,,,,,,,,,,end_unknown");
   EXPECT_TRUE(lines[1].ends_with(",120,,,,bone_may_end")) << "the normal range of flexion, and what ends it";
 }
 
@@ -161,18 +169,18 @@ TEST(RomCsv, NamesTheMeshesThatMeet) {
   joint.mobile.parts = {{"shaft", 0, joint.mobile.mesh.vertices().size(), 0, 40},
                         {"tip", joint.mobile.mesh.vertices().size(), 0, 40, 1000}};
   const auto lines = lines_of(io::rom_csv(shown({.joint = joint, .limits = some_limits()})));
-  EXPECT_NE(lines[0].find(",fixed_feature,mobile_feature,fixed_part,mobile_part,"), std::string::npos);
-  EXPECT_NE(lines[1].find(",edge 3-17,face 40,,tip,"), std::string::npos) << lines[1];
+  expect_says(lines[0], ",fixed_feature,mobile_feature,fixed_part,mobile_part,");
+  expect_says(lines[1], ",edge 3-17,face 40,,tip,");
 }
 
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   const Joint joint = arm_and_post();
   const std::vector<motion::MotionLimit> limits = some_limits();
-  const auto lines = lines_of(io::rom_text(shown({.joint = joint,
-                                                  .limits = limits,
-                                                  .bearing = {some_bearing(), {}},
-                                                  .bearing_rule = motion::BearingRule::leave_out,
-                                                  .caveats = {"left out: nothing"}})));
+  const auto lines = lines_of(text_of({.joint = joint,
+                                       .limits = limits,
+                                       .bearing = {some_bearing(), {}},
+                                       .bearing_rule = motion::BearingRule::leave_out,
+                                       .caveats = {"left out: nothing"}}));
   ASSERT_GT(lines.size(), 6u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_EQ(lines[1], "  left out: nothing") << "a bearing surface with a rim is as usual";
@@ -182,9 +190,9 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   EXPECT_EQ(lines[4].find("impingement"), column);
   EXPECT_EQ(lines[5].find("no contact in range"), column + 2);
   EXPECT_EQ(lines[6].find("in contact at start"), column + 1);
-  EXPECT_NE(lines[4].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
+  expect_says(lines[4], " 70.74 ");  // 1.2345678901 rad
   EXPECT_TRUE(lines[4].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[4];
-  EXPECT_NE(lines[5].find(" >40 "), std::string::npos) << lines[5];
+  expect_says(lines[5], " >40 ");
   const std::size_t living = lines[3].find("living hips");
   EXPECT_EQ(lines[4].find("clinical 120 "), living)
       << "it starts from adduction, which the cadavers' did not: " << lines[4];
@@ -196,31 +204,28 @@ TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
   const std::vector<motion::MotionLimit> limits = some_limits();
   motion::BearingSurface bearing = some_bearing();
   const auto text = [&] {
-    return io::rom_text(shown({.joint = joint, .limits = limits, .bearing = {bearing, {}}}),
-                        io::TextForm::whole);
+    return text_of({.joint = joint, .limits = limits, .bearing = {bearing, {}}}, io::TextForm::whole);
   };
-  EXPECT_NE(text().find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << text();
-  EXPECT_NE(text().find("(radius 24.50 mm, rim 2.25 mm from it)"), std::string::npos) << text();
+  expect_says(text(), "bearing surface: 2 of 3 triangles of arm");
+  expect_says(text(), "(radius 24.50 mm, rim 2.25 mm from it)");
   bearing.rim_gap_mm.reset();
-  EXPECT_NE(text().find("(radius 24.50 mm, no rim was found)"), std::string::npos) << text();
+  expect_says(text(), "(radius 24.50 mm, no rim was found)");
   bearing.margin_mm = by_head(motion::usual_bearing_margin_mm, bearing.head);
-  EXPECT_NE(
-      text().find(
-          "within 2.04 mm of the head's sphere\n    (radius 24.50 mm, no rim was found: the usual margin)"),
-      std::string::npos)
-      << text();
+  expect_says(
+      text(),
+      "within 2.04 mm of the head's sphere\n    (radius 24.50 mm, no rim was found: the usual margin)");
   bearing.parts = {"cartilage"};
-  EXPECT_EQ(text().find("no rim"), std::string::npos) << text();
+  expect_silent(text(), "no rim");
   // The contact point of the first limit has z = -2e-17; joints without a clock have it in the text.
   joint.anatomy = Anatomy::knee;
-  EXPECT_NE(text().find("(0.10, 0.33, 0.00)"), std::string::npos) << text();
+  expect_says(text(), "(0.10, 0.33, 0.00)");
 }
 
 TEST(RomJson, SaysThatTheTwoBedsideTestsAreAsDefinedHere) {
   const Joint joint = arm_and_post();
   std::vector<motion::MotionLimit> limits(3);
   for (std::size_t i = 0; i < 3; ++i) limits[i].motion.name = (std::array{"fadir", "flexion", "faber"})[i];
-  const Json motions = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"];
+  const Json motions = json_of({.joint = joint, .limits = limits})["motions"];
   for (const std::size_t i : {0, 2})
     EXPECT_EQ(motions[i]["definition"], "as defined here; no angles are agreed on");
   EXPECT_TRUE(motions[1]["definition"].is_null());
@@ -254,7 +259,7 @@ TEST(MotionCaveats, SayOfEachMotionOfAHipWhetherBoneUsuallyEndsIt) {
     EXPECT_EQ(codes_of(joint, motion), expected.at(motion.name)) << motion.name;
     ++known;
     for (const MotionCaveat& caveat : motion_caveats(joint, motion)) {
-      EXPECT_TRUE(caveat.text.ends_with(".")) << caveat.text;
+      expect_ends(caveat.text, ".");
       EXPECT_EQ(caveat.source.empty(), caveat.code == MotionCaveatCode::end_unknown) << motion.name;
     }
   }
@@ -275,48 +280,43 @@ TEST(MotionCaveats, AreOfMotionsThatTurnAsTheirNameSaysAndOfHipsOnly) {
 
 TEST(Scope, IsOsseousOnlyWhereAllMeshesAreBones) {
   Joint joint = arm_and_post();
-  EXPECT_TRUE(io::scope_text(joint).starts_with("osseous contact only; soft tissue is not modelled"));
+  expect_begins(io::scope_text(joint), "osseous contact only; soft tissue is not modelled");
   const std::size_t vertices = joint.mobile.mesh.vertices().size();
   const std::size_t triangles = joint.mobile.mesh.triangles().size();
   joint.mobile.parts = {
       {"femur", 0, vertices / 2, 0, triangles / 2},
       {"Femoral_Cartilage", vertices / 2, vertices - vertices / 2, triangles / 2, triangles - triangles / 2}};
-  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the bones and cartilages given; "))
-      << io::scope_text(joint);
+  expect_begins(io::scope_text(joint), "contact of the bones and cartilages given; ");
   joint.fixed.name = "labrum";
-  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the bones, cartilages and labrum given; "))
-      << io::scope_text(joint);
+  expect_begins(io::scope_text(joint), "contact of the bones, cartilages and labrum given; ");
   joint.mobile.parts.clear();
   joint.mobile.name = "lateral meniscus", joint.fixed.name = "tibial cartilage";
-  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the cartilages and menisci given; "))
-      << io::scope_text(joint);
+  expect_begins(io::scope_text(joint), "contact of the cartilages and menisci given; ");
   for (const std::string& scope : {io::scope_text(joint), io::scope_text(arm_and_post()), io::scope_text()})
-    EXPECT_TRUE(scope.ends_with("; research software, not a medical device")) << scope;
+    expect_ends(scope, "; research software, not a medical device");
 }
 
 TEST(Scope, TakesAllWordsOfAName) {
   Joint joint = arm_and_post();
   joint.fixed.name = "acetabular cartilage with labrum", joint.mobile.name = "implant";
-  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the cartilages, labrum and implants given; "))
-      << io::scope_text(joint);
+  expect_begins(io::scope_text(joint), "contact of the cartilages, labrum and implants given; ");
   EXPECT_EQ(codes_of(joint, motion::motion_named(motion::hip_motions(), "fadir")),
             std::vector<std::string>{"bone_may_end"});
   joint.fixed.name = "joint capsule";
-  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the soft tissue and implants given; "))
-      << io::scope_text(joint);
+  expect_begins(io::scope_text(joint), "contact of the soft tissue and implants given; ");
 }
 
 TEST(Scope, NamesLayersThatSurfacesCarry) {
   Joint joint = arm_and_post();
   io::ContactEntry entry;
   const auto scope = [&] { return io::scope_text(entry, io::surfaces_of(entry, joint)); };
-  EXPECT_TRUE(scope().starts_with("osseous contact")) << scope();
+  expect_begins(scope(), "osseous contact");
   entry.mobile.emplace();
-  EXPECT_TRUE(scope().starts_with("contact of the bones and elastic layers given; ")) << scope();
+  expect_begins(scope(), "contact of the bones and elastic layers given; ");
   entry.fixed.emplace();
-  EXPECT_TRUE(scope().starts_with("contact of the elastic layers given; ")) << scope();
+  expect_begins(scope(), "contact of the elastic layers given; ");
   joint.mobile.name = "femoral cartilage";
-  EXPECT_TRUE(scope().starts_with("contact of the cartilages and elastic layers given; ")) << scope();
+  expect_begins(scope(), "contact of the cartilages and elastic layers given; ");
 }
 
 TEST(RomText, HasALineForEachCaveatWithItsMotions) {
@@ -325,15 +325,14 @@ TEST(RomText, HasALineForEachCaveatWithItsMotions) {
   for (std::size_t i = 0; i < 3; ++i)
     limits[i].motion = motion::motion_named(
         motion::hip_motions(), (std::array{"extension", "internal_rotation_at_90_flexion", "fadir"})[i]);
-  const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}), io::TextForm::whole);
-  EXPECT_NE(text.find("a labrum, which no mesh is called, took 18 deg off them (median) (PMC7754612):\n"
-                      "      internal_rotation_at_90_flexion, fadir\n"),
-            std::string::npos)
-      << text;
+  const std::string text = text_of({.joint = joint, .limits = limits}, io::TextForm::whole);
+  expect_says(text,
+              "a labrum, which no mesh is called, took 18 deg off them (median) (PMC7754612):\n"
+              "      internal_rotation_at_90_flexion, fadir\n");
   // What the lines on living hips say is not said again.
-  EXPECT_NE(text.find("usually ended by soft tissue before bone: extension\n"), std::string::npos) << text;
-  EXPECT_EQ(text.find("soft tissue usually ends them"), std::string::npos) << text;
-  const Json extension = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"][0];
+  expect_says(text, "usually ended by soft tissue before bone: extension\n");
+  expect_silent(text, "soft tissue usually ends them");
+  const Json extension = json_of({.joint = joint, .limits = limits})["motions"][0];
   ASSERT_EQ(extension["caveats"].size(), 1u);
   EXPECT_EQ(extension["caveats"][0]["code"], "soft_tissue_ends");
   EXPECT_EQ(extension["caveats"][0]["source"], "Turley 2013, PMC3589629");
@@ -368,7 +367,7 @@ TEST(BoneReference, IsShortFromTheMeanOfHipsWithACamDown) {
   for (const auto& [turned, is_short] :
        {std::pair(21.11, false), {21.1, true}, {10.0, true}, {24.0, false}}) {
     const std::vector limits{impingement_test_at(Angle::degrees(turned))};
-    const Json json = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"][0];
+    const Json json = json_of({.joint = joint, .limits = limits})["motions"][0];
     EXPECT_EQ(json["bone_reference"], (Json{{"healthy_deg", 27.9},
                                             {"cam_without_complaints_deg", 21.1},
                                             {"patients_deg", 12.3},
@@ -376,8 +375,8 @@ TEST(BoneReference, IsShortFromTheMeanOfHipsWithACamDown) {
                                             {"is_short", is_short},
                                             {"source", "Audenaert 2012, doi 10.1177/0363546512441328"}}));
     EXPECT_TRUE(json["normal_range_deg"].is_null());
-    const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}), io::TextForm::whole);
-    EXPECT_NE(text.find("27.9 deg in 10 simulated healthy hips"), text.npos) << text;
+    const std::string text = text_of({.joint = joint, .limits = limits}, io::TextForm::whole);
+    expect_says(text, "27.9 deg in 10 simulated healthy hips");
     EXPECT_EQ(text.find("as early as in hips with a cam") != text.npos, is_short) << text;
   }
 }
@@ -444,15 +443,15 @@ TEST(RomResult, SaysWhereAnglesCountFrom) {
                                                {ZeroFrom::landmarks, "landmarks", true},
                                                {ZeroFrom::anatomy, "anatomy", true}}) {
     joint.zero_from = from;
-    const Json json = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})));
+    const Json json = json_of({.joint = joint, .limits = limits});
     EXPECT_EQ(json["zero"]["from"], word);
     EXPECT_EQ(json["zero"]["is_neutral"], is_neutral);
     EXPECT_TRUE(json["zero"]["femur_deg"].is_null()) << "an arm has no condyles";
     EXPECT_EQ(json["motions"][0]["zero_from"], word);
     // A range of other people counts from neutral.
     EXPECT_EQ(json["motions"][0]["normal_range_deg"], is_neutral ? Json(45.0) : Json(nullptr)) << word;
-    const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}));
-    EXPECT_NE(text.find("  zero: "), text.npos) << text;
+    const std::string text = text_of({.joint = joint, .limits = limits});
+    expect_says(text, "  zero: ");
     EXPECT_EQ(text.find("not compared with clinical ranges") == text.npos, is_neutral) << text;
   }
 }
@@ -460,16 +459,15 @@ TEST(RomResult, SaysWhereAnglesCountFrom) {
 TEST(RomResult, HasTheTotalArcOfOppositeMotionsThatBothEndInContact) {
   const Joint joint = arm_and_post();
   std::vector<motion::MotionLimit> limits = opposite_limits();
-  const Json arcs = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["arcs"];
+  const Json arcs = json_of({.joint = joint, .limits = limits})["arcs"];
   ASSERT_EQ(arcs.size(), 1u);
   EXPECT_EQ(arcs[0]["motions"], Json({"external_rotation", "internal_rotation"}));
   EXPECT_NEAR(arcs[0]["arc_deg"].get<double>(), 61.75, 1e-12);
-  EXPECT_NE(io::rom_text(shown({.joint = joint, .limits = limits}))
-                .find("total arcs (deg): external_rotation to internal_rotation 61.75"),
-            std::string::npos);
+  expect_says(text_of({.joint = joint, .limits = limits}),
+              "total arcs (deg): external_rotation to internal_rotation 61.75");
   // From another start it is another arc.
   limits[1].motion.start.flexion = Angle::degrees(90);
-  EXPECT_TRUE(Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["arcs"].empty());
+  EXPECT_TRUE(json_of({.joint = joint, .limits = limits})["arcs"].empty());
 }
 
 TEST(ClockHour, IsNamedAsAClockNamesIt) {
@@ -504,8 +502,8 @@ TEST(ClockHour, HasTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
     for (std::size_t i = 0; i < 5; ++i)
       EXPECT_NEAR(clock_hour(result.answer, limits[i]).value(), hours[i], 1e-14);
     EXPECT_NEAR(Json::parse(io::rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
-    EXPECT_NE(io::rom_text(result).find("  1:30\n"), std::string::npos);
-    EXPECT_NE(io::rom_csv(result).find(",1.5,,,,,,,,120,,,,bone_may_end\n"), std::string::npos);
+    expect_says(io::rom_text(result), "  1:30\n");
+    expect_says(io::rom_csv(result), ",1.5,,,,,,,,120,,,,bone_may_end\n");
   }
 }
 
@@ -520,8 +518,7 @@ TEST(ClockHour, LeavesOutWhatDidNotTouchAndHinges) {
   EXPECT_EQ(with_hour(), 1);
   joint.kind = JointKind::hinge;
   EXPECT_EQ(with_hour(), 0);
-  EXPECT_TRUE(Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"][0]["clock_hour"]
-                  .is_null());
+  EXPECT_TRUE(json_of({.joint = joint, .limits = limits})["motions"][0]["clock_hour"].is_null());
 }
 
 TEST(ClockHour, EndsWhereNoRimCanBe) {
@@ -542,12 +539,11 @@ TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
   depth.at_limit.depth_mm = 0.4375;
   depth.start_depth_mm = 0.125;
   depth.depth_grows = false;
-  const Json motion = Json::parse(
-      io::rom_json(shown({.joint = joint, .limits = {depth.limit}, .depths = {depth}})))["motions"][0];
+  const Json motion = json_of({.joint = joint, .limits = {depth.limit}, .depths = {depth}})["motions"][0];
   EXPECT_EQ(motion["depth"]["at_limit_mm"], 0.4375);
   EXPECT_EQ(motion["depth"]["at_start_mm"], 0.125);
   EXPECT_EQ(motion["depth"]["grows"], false);
-  EXPECT_TRUE(motion["guarantee"].get<std::string>().starts_with("searched, not exact"));
+  expect_begins(motion["guarantee"].get<std::string>(), "searched, not exact");
   EXPECT_FALSE(motion.contains("zone"));
 }
 

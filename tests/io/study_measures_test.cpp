@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
 #include "study_of_arms.hpp"
+#include "support/complaint.hpp"
 
 /// Measures of a hip's shape as columns of a study.
 
@@ -18,7 +17,7 @@ std::string text_of(const std::optional<double>& value) {
 
 class StudyOfShapes : public ::testing::Test {
  protected:
-  void write(const std::string& text) const { std::ofstream(folder / "hips.csv") << text; }
+  void write(const std::string& text) const { folder.file("hips.csv", text); }
   io::Study study(const std::string& out) const {
     io::Study shapes{folder / "hips.csv", folder / out};
     shapes.options.motions = {"flexion"};
@@ -48,8 +47,7 @@ TEST_F(StudyOfShapes, HasWhatTheLibraryMeasuresWithTheTiltOfTheTable) {
   EXPECT_EQ(hips[0].at("measured_frame"), "as scanned");
   EXPECT_EQ(hips[1].at("measured_frame"), "as scanned, tilt 10 deg given");
   EXPECT_EQ(hips[0].at("measured_femoral_version_deg"), "");
-  EXPECT_NE(hips[0].at("measured_none").find("femoral_version_deg: the mesh ends above the knee"),
-            std::string::npos);
+  expect_says(hips[0].at("measured_none"), "femoral_version_deg: the mesh ends above the knee");
   // Requested values stand beside measured ones.
   EXPECT_EQ(hips[0].at("neck_shaft_angle_deg"), "127");
   EXPECT_EQ(hips[1].at("pelvic_tilt_deg"), "10");
@@ -68,8 +66,8 @@ TEST_F(StudyOfShapes, ExpectsNoEndOfAChildsHipByItsAge) {
     EXPECT_NEAR(std::stod(rows[grown].at("living_expected_deg")),
                 std::stod(rows[grown].at("limit_deg")) - 3.1, 1e-9);
   EXPECT_EQ(rows[2].at("living_expected_deg"), "");
-  EXPECT_TRUE(rows_of(folder / "out/failures.csv")[0].at("message").ends_with(
-      "hips.csv: line 5: column 'age_years': '121' is none of 0 to 120 years"));
+  expect_ends(rows_of(folder / "out/failures.csv")[0].at("message"),
+              "hips.csv: line 5: column 'age_years': '121' is none of 0 to 120 years");
 }
 
 TEST_F(StudyOfShapes, HasBandsWhereTheyAreAskedFor) {
@@ -87,17 +85,17 @@ TEST_F(StudyOfShapes, HasBandsWhereTheyAreAskedFor) {
 }
 
 TEST_F(StudyOfArms, RefusesATiltThatIsNone) {
-  folder.file(
-      "tilts.csv",
-      "id,joint,pelvic_tilt_deg\na,hip1.toml,forwards\nb,hip2.toml,61\nc,hip3.toml,nan\nd,hip4.toml,-60\n");
-  io::Study tilted{folder / "tilts.csv", folder / "out", flexion_only()};
+  io::Study tilted{folder.file("tilts.csv",
+                               "id,joint,pelvic_tilt_deg\na,hip1.toml,forwards\nb,hip2.toml,61\nc,hip3.toml,"
+                               "nan\nd,hip4.toml,-60\n"),
+                   folder / "out", flexion_only()};
   EXPECT_EQ(run(tilted).failures, 0u) << "a covariate where nothing is measured";
   tilted.options.measures = true;
   EXPECT_EQ(run(tilted).failures, 3u);
   const auto failures = rows_of(folder / "out/failures.csv");
-  EXPECT_TRUE(failures[0].at("message").ends_with(
-      "tilts.csv: line 2: column 'pelvic_tilt_deg': 'forwards' is no number of degrees from -60 to 60"))
-      << failures[0].at("message");
+  expect_ends(
+      failures[0].at("message"),
+      "tilts.csv: line 2: column 'pelvic_tilt_deg': 'forwards' is no number of degrees from -60 to 60");
   EXPECT_EQ(failures[0].at("exit_code"), "3");
   EXPECT_EQ(rows_of(folder / "out/hips.csv")[0].at("id"), "d");
 }
@@ -109,23 +107,16 @@ TEST_F(StudyOfArms, MeasuresNothingOfWhatHasNoHeadAndSaysWhy) {
   const auto hip = rows_of(folder / "out/hips.csv")[0];
   for (const measure::MeasureDefinition& each : measure::measure_definitions())
     EXPECT_EQ(hip.at("measured_" + std::string(each.key)), "");
-  EXPECT_NE(hip.at("measured_none").find("head_radius_mm: no spherical head"), std::string::npos);
+  expect_says(hip.at("measured_none"), "head_radius_mm: no spherical head");
   run(study("plain"));
   EXPECT_FALSE(rows_of(folder / "plain/hips.csv")[0].contains("measured_none"));
 }
 
 TEST_F(StudyOfArms, EndsWhereMeasuresAreAskedForOfAnotherJoint) {
-  std::string text = io::read_whole_file(folder / "hip1.toml");
-  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"knee\"");
-  folder.file("knee.toml", text);
-  folder.file("knees.csv", "id,joint\nk,knee.toml\n");
-  io::Study knees{folder / "knees.csv", folder / "knees", {}};
-  knees.options.anatomy = Anatomy::knee;
-  knees.options.measures = true;
-  EXPECT_NE(message_of<UsageError>([&] {
-              io::run_study(knees);
-            }).find("measures: are of hips, and this study is of the knee"),
-            std::string::npos);
+  io::Study of_knees = knees();
+  of_knees.options.measures = true;
+  expect_says(complaint_of<UsageError>([&] { io::run_study(of_knees); }),
+              "measures: are of hips, and this study is of the knee");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "condyle/io/study.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/whole_file.hpp"
+#include "support/complaint.hpp"
 #include "support/small_cohort.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -53,15 +54,13 @@ class StudyOfArms : public ::testing::Test {
     for (const char* name : {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"})
       EXPECT_EQ(io::read_whole_file(folder / a / name), io::read_whole_file(folder / b / name)) << name;
   }
-  template <class Error, class Run>
-  static std::string message_of(const Run& run) {
-    try {
-      run();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
+  /// Of a joint that is a hinge, and no hip.
+  io::Study knees() const {
+    folder.file("knee.toml", replaced(io::read_whole_file(folder / "hip1.toml"), "kind = \"ball\"",
+                                      "kind = \"hinge\"\njoint = \"knee\""));
+    io::Study study{folder.file("knees.csv", "id,joint\nk,knee.toml\n"), folder / "knees", {}};
+    study.options.anatomy = Anatomy::knee;
+    return study;
   }
 
   const TemporaryFolder folder;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/result/sample_files.hpp"
 #include "study_of_arms.hpp"
+#include "support/complaint.hpp"
 
 namespace condyle::test {
 namespace {
@@ -54,7 +54,7 @@ TEST_F(StudyOfArms, SaysOfEveryFailureItsExitCodeAndWhy) {
     EXPECT_EQ(failures[i].at("id"), id);
     EXPECT_EQ(failures[i].at("table_row"), fmt::format("{}", 10 + i));
     EXPECT_EQ(failures[i].at("exit_code"), code);
-    EXPECT_NE(failures[i].at("message").find(saying), std::string::npos) << failures[i].at("message");
+    expect_says(failures[i].at("message"), saying);
   };
   expect(0, "gone", "3", "nothere.toml: no such file");
   expect(1, "open", "3", "mobile.mesh: there is no file");
@@ -147,11 +147,11 @@ TEST_F(StudyOfArms, IsDoneAgainWhereItsRowsMoved) {
 TEST_F(StudyOfArms, KeepsShardsWhoseRowsDidNotChange) {
   for (std::size_t number = 1; number <= 3; ++number) run(shard("out", number, 3));
   cohort.write_table("open.toml", "c");
-  EXPECT_NE(message_of<FileError>([&] {
-              EXPECT_TRUE(run(shard("out", 1, 3)).was_there);
-              io::merge_study(folder / "out");
-            }).find("2_of_3: is of another table"),
-            std::string::npos);
+  expect_says(complaint_of<FileError>([&] {
+                EXPECT_TRUE(run(shard("out", 1, 3)).was_there);
+                io::merge_study(folder / "out");
+              }),
+              "2_of_3: is of another table");
   EXPECT_TRUE(run(shard("out", 2, 3)).was_there);
   EXPECT_FALSE(run(shard("out", 3, 3)).was_there);
   io::merge_study(folder / "out");
@@ -160,46 +160,38 @@ TEST_F(StudyOfArms, KeepsShardsWhoseRowsDidNotChange) {
 }
 
 TEST_F(StudyOfArms, IsMergedOnlyWhereAllShardsAreThereAndWhole) {
-  EXPECT_NE(message_of<FileError>([&] { io::merge_study(folder / "out"); }).find("there is no shard"),
-            std::string::npos);
+  const auto merging = [&] { return complaint_of<FileError>([&] { io::merge_study(folder / "out"); }); };
+  expect_says(merging(), "there is no shard");
   for (const std::size_t number : {1u, 2u, 4u}) run(shard("out", number, 5));
-  EXPECT_NE(message_of<FileError>([&] {
-              io::merge_study(folder / "out");
-            }).find("2 of 5 shards are missing or not whole: 3, 5"),
-            std::string::npos);
+  expect_says(merging(), "2 of 5 shards are missing or not whole: 3, 5");
   EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
   for (const std::size_t number : {3u, 5u}) run(shard("out", number, 5));
   std::ofstream(folder / "out/shards/4_of_5/failures.csv", std::ios::app) << "x\n";
-  EXPECT_NE(message_of<FileError>([&] {
-              io::merge_study(folder / "out");
-            }).find("1 of 5 shards is missing or not whole: 4"),
-            std::string::npos);
+  expect_says(merging(), "1 of 5 shards is missing or not whole: 4");
   run(shard("out", 4, 5));
   io::Study other = shard("out", 5, 5);
   other.options.motions = {"flexion"};
   run(other);
-  EXPECT_NE(message_of<FileError>([&] { io::merge_study(folder / "out"); }).find("other options"),
-            std::string::npos);
+  expect_says(merging(), "other options");
   run(shard("out", 1, 2));
-  EXPECT_NE(message_of<FileError>([&] { io::merge_study(folder / "out"); }).find("shards of 2 and of 5"),
-            std::string::npos);
+  expect_says(merging(), "shards of 2 and of 5");
 }
 
 TEST_F(StudyOfArms, EndsWithItsLowestBadJointWhereThatIsAskedFor) {
   io::Study strict = study("out");
   strict.bad_joint = io::BadJoint::ends_run;
-  EXPECT_NE(message_of<FileError>([&] { run(strict); }).find("nothere.toml"), std::string::npos);
+  expect_says(complaint_of<FileError>([&] { run(strict); }), "nothere.toml");
   EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
   // Tables that are there already change nothing, and stay.
   run(study("out"));
-  EXPECT_NE(message_of<FileError>([&] { run(strict); }).find("nothere.toml"), std::string::npos);
+  expect_says(complaint_of<FileError>([&] { run(strict); }), "nothere.toml");
   EXPECT_TRUE(run(study("out")).was_there);
 }
 
 TEST_F(StudyOfArms, EndsWhereItsOptionsDoNotFit) {
   io::Study wrong = study("out");
   wrong.options.motions = {"flexoin"};
-  EXPECT_NE(message_of<UsageError>([&] { run(wrong); }).find("flexoin"), std::string::npos);
+  expect_says(complaint_of<UsageError>([&] { run(wrong); }), "flexoin");
   EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
 }
 
@@ -315,36 +307,30 @@ TEST(StudyH5, GrowsWithTheTextsAndNotWithTheLongestOne) {
 }
 
 TEST_F(StudyOfArms, RefusesAPoseThatAHingeDoesNotTurnTo) {
-  std::string text = read_whole_file(folder / "hip1.toml");
-  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"knee\"");
-  folder.file("knee.toml", text);
-  folder.file("knees.csv", "id,joint\nk,knee.toml\n");
-  io::Study asked{folder / "knees.csv", folder / "knees", {}};
-  asked.options.anatomy = Anatomy::knee;
-  const auto refusal = [&] { return message_of<UsageError>([&] { io::run_study(asked); }); };
+  io::Study asked = knees();
+  const auto refusal = [&] { return complaint_of<UsageError>([&] { io::run_study(asked); }); };
   constexpr auto says =
       "knees.csv: line 2: joint 'k': pose: a hinge rotates in flexion only, not in adduction";
   asked.options.depth_at = io::study_pose("flexion=30 adduction=10", Anatomy::knee);
-  EXPECT_TRUE(refusal().ends_with(says)) << refusal();
+  expect_ends(refusal(), says);
   asked.options.depth_at = io::study_pose("flexion=20", Anatomy::knee);
   EXPECT_EQ(io::run_study(asked)->joints, 1u);
   asked.options.depth_at.reset();
   asked.options.load.emplace().at = io::study_pose("flexion=30 adduction=10", Anatomy::knee);
-  EXPECT_TRUE(refusal().ends_with(says)) << refusal();
+  expect_ends(refusal(), says);
   EXPECT_THROW(io::study_pose("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", Anatomy::knee), UsageError);
 }
 
 TEST_F(StudyOfArms, WithoutAnAnswerIsTheErrorOfItsFirstFailure) {
   const auto refusal = [&](std::string_view table) {
-    return message_of<FileError>([&] {
+    return complaint_of<FileError>([&] {
       const fs::path path = folder.file("none.csv", table);
       io::require_answered(*io::run_study({path, folder / "none"}), path);
     });
   };
-  EXPECT_NE(refusal("id,joint\na,nothere.toml\nb,in_contact.toml\n")
-                .find("none.csv: none of 2 joints was answered; "
-                      "the first one: "),
-            std::string::npos);
+  expect_says(refusal("id,joint\na,nothere.toml\nb,in_contact.toml\n"),
+              "none.csv: none of 2 joints was answered; "
+              "the first one: ");
   const fs::path contact = folder.file("none.csv", "id,joint\nb,in_contact.toml\na,nothere.toml\n");
   for (const bool again : {false, true}) {
     const io::StudyDone done = *io::run_study({contact, folder / "none"});
@@ -365,7 +351,7 @@ TEST_F(StudyOfArms, NamesEveryColumnInItsDictionary) {
     const std::string text = read_whole_file(folder / "out" / (std::string(table) + ".csv"));
     std::string header;
     for (const std::string& name : names[table]) header += (header.empty() ? "" : ",") + name;
-    EXPECT_NE(text.find("\n" + header + "\n"), text.npos) << text;
+    expect_says(text, "\n" + header + "\n");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "answer/sweep_summary.hpp"
 #include "condyle/error.hpp"
 #include "io/sweep/sweep_files.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 
 /// A sweep that is written and read again says the same to the last bit.
@@ -105,19 +106,14 @@ TEST(SweepFiles, AreFoundAgainByTheirKeyOnly) {
 TEST(SweepFiles, ThatDoNotFitTogetherAreRefused) {
   const io::SweepResult written = made_sweep();
   const auto refusal = [&](const io::Json& json, const std::string& designs, const std::string& safe) {
-    try {
-      io::read_sweep_result(json, designs, safe, "zone");
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return complaint_of<FileError>([&] { io::read_sweep_result(json, designs, safe, "zone"); });
   };
   const io::Json json = io::sweep_object(written);
   const std::string designs = io::designs_csv(written), safe = io::safe_csv(written);
   EXPECT_EQ(refusal(json, designs, safe), "accepted");
   io::Json without = json;
   without.erase("targets");
-  EXPECT_TRUE(refusal(without, designs, safe).starts_with("zone: sweep.json: is not whole: "));
+  expect_begins(refusal(without, designs, safe), "zone: sweep.json: is not whole: ");
   EXPECT_EQ(refusal(json, "", safe), "zone/designs.csv: is empty");
   EXPECT_EQ(refusal(json, "a,b\n1,2\n", safe), "zone/designs.csv: has other columns than sweep.json says");
   EXPECT_EQ(refusal(json, designs.substr(0, designs.size() - 30), safe),

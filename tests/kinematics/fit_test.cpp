@@ -60,10 +60,7 @@ TEST(FitSphere, IsExactOnExactSpheresWhereverTheyLie) {
 }
 
 TEST(FitSphere, FourVerticesAreEnough) {
-  Points corners;
-  for (const Vec3& p : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
-    corners.push_back(p);
-  const auto fit = fit_sphere(corners);
+  const auto fit = fit_sphere(test::mesh_of({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {}).vertices);
   EXPECT_LE(fit.sphere.centre.norm(), 16 * core::rounding_unit);
   EXPECT_NEAR(fit.sphere.radius, std::sqrt(3), 16 * core::rounding_unit);
 }
@@ -300,11 +297,9 @@ TEST(FindCylinder, ABallIsNoCylinderInABallEither) {
 TEST(FindSphere, TheFloorOfAFossaIsLeftOutOfItsSocket) {
   const Vec3 fossa = Vec3(0.3, 1, -0.2).normalized();
   for (const double depth : {2.0, 3.0, 5.0}) {
-    TriMesh socket = test::socket(Vec3::Zero(), 25, 40, 5);
-    for (std::size_t v = 0; v < socket.vertices.size(); ++v) {
-      const Vec3 p = socket.vertices[v];
-      if (p.norm() < 26 && p.normalized().dot(fossa) > 0.8) socket.vertices.set(v, (25 + depth) / 25 * p);
-    }
+    const TriMesh socket = test::mapped(test::socket(Vec3::Zero(), 25, 40, 5), [&](const Vec3& p) {
+      return p.norm() < 26 && p.normalized().dot(fossa) > 0.8 ? Vec3((25 + depth) / 25 * p) : p;
+    });
     const auto patch = find_sphere(socket, {.part = SphericalPart::socket});
     EXPECT_LE(patch.fit.sphere.centre.norm(), exact_fit_tolerance(40, 1)) << depth;
     EXPECT_NEAR(patch.fit.sphere.radius, 25, exact_fit_tolerance(40, 1)) << depth;

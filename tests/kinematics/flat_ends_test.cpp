@@ -62,36 +62,16 @@ TEST(FlatEnds, AnyPlaneThatABoneWasCutByIsFound) {
 
 /// A ball of voxels as a stack of discs, as high as they are: the uppermost is flat.
 TriMesh stack_of_discs(double radius, double step) {
-  TriMesh ball;
-  constexpr int around = 64;
   const int half = static_cast<int>(radius / step);
-  const auto ring = [&](double height, double wide) {
-    for (int k = 0; k < around; ++k) {
-      const double turn = two_pi * k / around;
-      ball.vertices.push_back({wide * std::cos(turn), height, wide * std::sin(turn)});
-    }
-  };
-  const auto wide_at = [&](int layer) {
-    const double middle = (std::abs(layer + 0.5)) * step;
-    return std::sqrt(std::max(radius * radius - middle * middle, 0.0));
-  };
-  int rings = 0;
-  for (int layer = -half; layer < half; ++layer)
-    for (const int side : {0, 1}) ring((layer + side) * step, wide_at(layer)), ++rings;
-  const auto at = [&](int r, int k) { return static_cast<Index>(r * around + k % around); };
-  for (int r = 0; r + 1 < rings; ++r)
-    for (int k = 0; k < around; ++k) {
-      ball.triangles.push_back({at(r, k), at(r + 1, k), at(r, k + 1)});
-      ball.triangles.push_back({at(r, k + 1), at(r + 1, k), at(r + 1, k + 1)});
-    }
-  for (const int r : {0, rings - 1}) {
-    const Index middle = static_cast<Index>(ball.vertices.size());
-    ball.vertices.push_back({0, (r == 0 ? -half : half) * step, 0});
-    for (int k = 0; k < around; ++k)
-      ball.triangles.push_back(r == 0 ? Triangle{middle, at(r, k), at(r, k + 1)}
-                                      : Triangle{middle, at(r, k + 1), at(r, k)});
+  std::vector<std::array<double, 2>> profile = {{0, half * step}};
+  for (int layer = -half; layer < half; ++layer) {
+    const double middle = std::abs(layer + 0.5) * step,
+                 wide = std::sqrt(std::max(radius * radius - middle * middle, 0.0));
+    profile.insert(profile.end(), {{wide, -layer * step}, {wide, -(layer + 1) * step}});
   }
-  return ball;
+  profile.push_back({0, -half * step});
+  return test::mapped(test::turned_solid(profile, 64),
+                      [](const Vec3& p) { return Vec3(p.y(), p.z(), p.x()); });
 }
 
 TEST(FlatEnds, TheUppermostStepOfAStaircaseOfVoxelsIsNone) {
@@ -105,11 +85,7 @@ TEST(FlatEnds, TheUppermostStepOfAStaircaseOfVoxelsIsNone) {
 
 TEST(FlatEnds, SizeDoesNotMatter) {
   const TriMesh cut = kept_behind(test::sphere({5, -3, 2}, 60, 5), {10, 0, 0}, {1, 1, 0});
-  for (const double scale : {0.1, 10.0}) {
-    TriMesh scaled = cut;
-    for (std::size_t v = 0; v < cut.vertices.size(); ++v) scaled.vertices.set(v, scale * cut.vertices[v]);
-    EXPECT_EQ(ends_of(scaled).size(), 1u) << scale;
-  }
+  for (const double scale : {0.1, 10.0}) EXPECT_EQ(ends_of(test::scaled_by(cut, scale)).size(), 1u) << scale;
 }
 
 TEST(FlatEnds, AFaceHasItsAreaAndItsDistanceFromTheCentre) {

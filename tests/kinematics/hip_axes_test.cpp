@@ -1,4 +1,5 @@
 #include "kinematics/hip_axes.hpp"
+#include "support/complaint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +68,7 @@ TEST(HipAxes, OfAnImageNeedANeckThirtyDegreesBehindTheSocketsOpening) {
   const HipAxes neither = inferred(lps_axes, Side::left, {29.9});
   ASSERT_EQ(neither.agreeing.size(), 2u) << "a left hip in LPS, or a right one in RAS";
   EXPECT_NE(neither.agreeing[0].side, neither.agreeing[1].side);
-  EXPECT_NE(neither.why_none.find("more than one"), std::string::npos);
+  test::expect_says(neither.why_none, "more than one");
 }
 
 TEST(HipAxes, WithTheSideGivenOrInJointAxesNeedNoVoteForIt) {

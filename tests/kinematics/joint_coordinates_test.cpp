@@ -19,12 +19,22 @@ JointAngles degrees(double flexion, double adduction, double rotation) {
   return {Angle::degrees(flexion), Angle::degrees(adduction), Angle::degrees(rotation)};
 }
 
-/// The same pose from three rotations about single axes, as the definition reads.
-Pose by_definition(Side side, const JointAngles& a) {
-  const double s = side == Side::right ? 1 : -1;
-  return Pose(Eigen::AngleAxisd(a.flexion.radians(), Vec3::UnitZ()) *
-              Eigen::AngleAxisd(a.adduction.radians(), s * Vec3::UnitX()) *
-              Eigen::AngleAxisd(a.internal_rotation.radians(), s * Vec3::UnitY()));
+std::vector<CoordinateSystem> all_systems() {
+  std::vector<CoordinateSystem> systems;
+  for (const Anatomy anatomy : all_anatomies)
+    for (const Side side : sides) systems.push_back({anatomy, side});
+  return systems;
+}
+
+/// Three rotations about single axes, as the header reads.
+Pose by_definition(CoordinateSystem system, const JointAngles& a) {
+  const double s = system.side == Side::right ? 1 : -1;
+  const Vec3 x = s * Vec3::UnitX(), y = s * Vec3::UnitY(), z = Vec3::UnitZ();
+  const auto turn = [](Angle angle, const Vec3& axis) { return Eigen::AngleAxisd(angle.radians(), axis); };
+  if (system.anatomy == Anatomy::shoulder)
+    return Pose(turn(a.flexion, y) * turn(-a.adduction, x) * turn(a.internal_rotation, y));
+  const double bends = system.anatomy == Anatomy::knee ? -1 : 1;
+  return Pose(turn(a.flexion * bends, z) * turn(a.adduction, x) * turn(a.internal_rotation, y));
 }
 
 double largest_difference(const Pose& a, const Pose& b) {
@@ -82,7 +92,8 @@ TEST(JointCoordinates, QuarterTurnsHaveNoRounding) {
           const Eigen::Matrix3d whole = X.linear().array().round();
           EXPECT_TRUE(X.linear() == whole) << f << ' ' << a << ' ' << r;
           EXPECT_EQ(X.linear().cwiseAbs().sum(), 3);
-          EXPECT_LE(largest_difference(X, by_definition(side, degrees(f, a, r))), definition_tolerance);
+          EXPECT_LE(largest_difference(X, by_definition({.side = side}, degrees(f, a, r))),
+                    definition_tolerance);
           EXPECT_TRUE(pose_at({.side = side}, angles_at({.side = side}, X)).matrix() == X.matrix());
         }
 }
@@ -90,34 +101,6 @@ TEST(JointCoordinates, QuarterTurnsHaveNoRounding) {
 TEST(JointCoordinates, ATinyAngleIsNotTakenForZero) {
   const Pose X = pose_at({.side = Side::right}, {Angle::radians(1e-300), Angle(), Angle()});
   EXPECT_EQ(X(1, 0), 1e-300);
-}
-
-TEST(JointCoordinates, APoseIsFlexionThenAdductionThenRotationAboutTheStatedAxes) {
-  for (const Side side : sides)
-    for (int f = -170; f <= 180; f += 35)
-      for (int a = -90; a <= 90; a += 15)
-        for (int r = -170; r <= 180; r += 35)
-          EXPECT_LE(largest_difference(pose_at({.side = side}, degrees(f, a, r)),
-                                       by_definition(side, degrees(f, a, r))),
-                    definition_tolerance);
-}
-
-TEST(JointCoordinates, FlexionBringsTheFemurForwardsOnBothSides) {
-  for (const Side side : sides) {
-    const Vec3 knee = posed(pose_at({.side = side}, degrees(90, 0, 0)), Vec3(0, -400, 0));
-    EXPECT_EQ(knee, Vec3(400, 0, 0));
-  }
-}
-
-TEST(JointCoordinates, AdductionBringsTheKneeToTheMidlineOnBothSides) {
-  // The midline is to the left (-Z) of a right hip and to the right (+Z) of a left one.
-  EXPECT_EQ(posed(pose_at({.side = Side::right}, degrees(0, 90, 0)), Vec3(0, -400, 0)), Vec3(0, 0, -400));
-  EXPECT_EQ(posed(pose_at({.side = Side::left}, degrees(0, 90, 0)), Vec3(0, -400, 0)), Vec3(0, 0, 400));
-}
-
-TEST(JointCoordinates, InternalRotationBringsTheFrontToTheMidlineOnBothSides) {
-  EXPECT_EQ(posed(pose_at({.side = Side::right}, degrees(0, 0, 90)), Vec3(30, 0, 0)), Vec3(0, 0, -30));
-  EXPECT_EQ(posed(pose_at({.side = Side::left}, degrees(0, 0, 90)), Vec3(30, 0, 0)), Vec3(0, 0, 30));
 }
 
 TEST(JointCoordinates, ALeftJointIsTheMirrorImageOfARightOne) {
@@ -188,65 +171,22 @@ TEST(JointCoordinates, AnglesReadTheRotationOnly) {
   EXPECT_EQ(angles_at({.side = Side::left}, X), before);
 }
 
-/// Adding d to one angle is rotating the posed body by d about that angle's axis.
-TEST(JointCoordinates, AnAxisIsTheOneAboutWhichItsAngleRotates) {
-  const double rotations[] = {0.5, -120, 1e-3};
-  for (const Side side : sides)
-    for (int f = -180; f <= 180; f += 45)
-      for (int a = -90; a <= 90; a += 30)
-        for (int r = -180; r <= 180; r += 45)
-          for (const double rotation : rotations) {
-            const JointAngles at = degrees(f, a, r);
-            JointAngles moved[3] = {at, at, at};
-            moved[0].flexion = at.flexion + Angle::degrees(rotation);
-            moved[1].adduction = at.adduction + Angle::degrees(rotation);
-            moved[2].internal_rotation = at.internal_rotation + Angle::degrees(rotation);
-            for (const auto angle :
-                 {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
-              const Vec3 axis = axis_of(angle, {.side = side}, at);
-              EXPECT_NEAR(axis.norm(), 1, pose_tolerance);
-              const Pose rotated(Eigen::AngleAxisd(Angle::degrees(rotation).radians(), axis) *
-                                 pose_at({.side = side}, at).linear());
-              // Rounding of the sum of two angles of up to 2 pi adds 4u.
-              EXPECT_LE(largest_difference(rotated, pose_at({.side = side}, moved[static_cast<int>(angle)])),
-                        definition_tolerance + 4 * core::rounding_unit);
-            }
-          }
-}
-
-// Joints other than the hip.
-
-std::vector<CoordinateSystem> all_systems() {
-  std::vector<CoordinateSystem> systems;
-  for (const Anatomy anatomy : all_anatomies)
-    for (const Side side : sides) systems.push_back({anatomy, side});
-  return systems;
-}
-
-/// Three rotations about single axes, as the header reads.
-Pose by_definition(CoordinateSystem system, const JointAngles& a) {
-  const double s = system.side == Side::right ? 1 : -1;
-  const Vec3 x = s * Vec3::UnitX(), y = s * Vec3::UnitY(), z = Vec3::UnitZ();
-  const auto turn = [](Angle angle, const Vec3& axis) { return Eigen::AngleAxisd(angle.radians(), axis); };
-  if (system.anatomy == Anatomy::shoulder)
-    return Pose(turn(a.flexion, y) * turn(-a.adduction, x) * turn(a.internal_rotation, y));
-  const double bends = system.anatomy == Anatomy::knee ? -1 : 1;
-  return Pose(turn(a.flexion * bends, z) * turn(a.adduction, x) * turn(a.internal_rotation, y));
-}
-
-Vec3 moved_by(CoordinateSystem system, const JointAngles& angles, const Vec3& p) {
-  return posed(pose_at(system, angles), p);
-}
-
 /// Checks the point p of the mobile body on either side, at its place in a right joint and mirrored in a left one.
 void expect_on_both_sides(Anatomy anatomy, const JointAngles& angles, const Vec3& p, const Vec3& moved) {
   const Eigen::DiagonalMatrix<double, 3> mirror(1, 1, -1);
-  EXPECT_EQ(moved_by({anatomy, Side::right}, angles, p), moved);
-  EXPECT_EQ(moved_by({anatomy, Side::left}, angles, mirror * p), mirror * moved);
+  EXPECT_EQ(posed(pose_at({anatomy, Side::right}, angles), p), moved);
+  EXPECT_EQ(posed(pose_at({anatomy, Side::left}, angles), Vec3(mirror * p)), mirror * moved);
 }
 
 constexpr double below = -400, in_front = 150;
 const Vec3 distal(0, below, 0), front(in_front, 0, 0);
+
+TEST(JointCoordinates, AHipFlexesForwardsAndAdductsAndRotatesTowardsTheMidline) {
+  expect_on_both_sides(Anatomy::hip, degrees(90, 0, 0), distal, {-below, 0, 0});
+  // The midline is to the left (-Z) of a right hip and to the right (+Z) of a left one.
+  expect_on_both_sides(Anatomy::hip, degrees(0, 90, 0), distal, {0, 0, below});
+  expect_on_both_sides(Anatomy::hip, degrees(0, 0, 90), front, {0, 0, -in_front});
+}
 
 TEST(JointCoordinates, AKneeFlexesBackwards) {
   expect_on_both_sides(Anatomy::knee, degrees(90, 0, 0), distal, {below, 0, 0});
@@ -371,24 +311,27 @@ TEST(JointCoordinates, AHangingArmHasNoPlaneAndAllOfItsRotation) {
   }
 }
 
+/// Adding d to one angle is rotating the posed body by d about that angle's axis.
 TEST(JointCoordinates, InEverySystemAnAngleRotatesAboutItsAxis) {
   for (const CoordinateSystem system : all_systems())
     for (int f = -180; f <= 180; f += 45)
       for (int a = -90; a <= 180; a += 30)
-        for (int r = -180; r <= 180; r += 45) {
-          const JointAngles at = degrees(f, a, r);
-          JointAngles moved[3] = {at, at, at};
-          const Angle by = Angle::degrees(7);
-          moved[0].flexion = at.flexion + by;
-          moved[1].adduction = at.adduction + by;
-          moved[2].internal_rotation = at.internal_rotation + by;
-          for (const JointAngle angle : all_joint_angles) {
-            const Pose rotated(Eigen::AngleAxisd(by.radians(), axis_of(angle, system, at)) *
-                               pose_at(system, at).linear());
-            EXPECT_LE(largest_difference(rotated, pose_at(system, moved[static_cast<int>(angle)])),
-                      definition_tolerance + 4 * core::rounding_unit);
+        for (int r = -180; r <= 180; r += 45)
+          for (const Angle by : {Angle::degrees(0.5), Angle::degrees(-120), Angle::degrees(1e-3)}) {
+            const JointAngles at = degrees(f, a, r);
+            JointAngles moved[3] = {at, at, at};
+            moved[0].flexion = at.flexion + by;
+            moved[1].adduction = at.adduction + by;
+            moved[2].internal_rotation = at.internal_rotation + by;
+            for (const JointAngle angle : all_joint_angles) {
+              const Vec3 axis = axis_of(angle, system, at);
+              EXPECT_NEAR(axis.norm(), 1, pose_tolerance);
+              const Pose rotated(Eigen::AngleAxisd(by.radians(), axis) * pose_at(system, at).linear());
+              // Rounding of the sum of two angles of up to 2 pi adds 4u.
+              EXPECT_LE(largest_difference(rotated, pose_at(system, moved[static_cast<int>(angle)])),
+                        definition_tolerance + 4 * core::rounding_unit);
+            }
           }
-        }
 }
 
 TEST(JointCoordinates, NoNameMeansTwoThingsInOneJoint) {

@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/predicates.hpp"
+#include "support/complaint.hpp"
 
 namespace condyle {
 namespace {
@@ -21,12 +22,7 @@ void expect_rotation(const Pose& X) {
 }
 
 std::string message_of(const Vec3& anterior, const Vec3& superior) {
-  try {
-    frame_from_axes(Vec3::Zero(), anterior, superior);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::complaint_of<UsageError>([&] { frame_from_axes(Vec3::Zero(), anterior, superior); });
 }
 
 TEST(JointFrame, StandardAxesAndAnyCentreAreTakenBitForBit) {
@@ -75,11 +71,11 @@ TEST(JointFrame, LengthsOtherThanOneAreRefused) {
 }
 
 TEST(JointFrame, TheToleranceIsHeldOnBothSides) {
-  EXPECT_EQ(message_of((1 + 0.9 * axis_tolerance) * Vec3::UnitX(), Vec3::UnitY()), "no error");
-  EXPECT_NE(message_of((1 + 1.1 * axis_tolerance) * Vec3::UnitX(), Vec3::UnitY()), "no error");
+  EXPECT_EQ(message_of((1 + 0.9 * axis_tolerance) * Vec3::UnitX(), Vec3::UnitY()), "accepted");
+  EXPECT_NE(message_of((1 + 1.1 * axis_tolerance) * Vec3::UnitX(), Vec3::UnitY()), "accepted");
   const auto tilted = [](double angle) { return Vec3(std::sin(angle), std::cos(angle), 0); };
-  EXPECT_EQ(message_of(Vec3::UnitX(), tilted(1.9 * axis_tolerance)), "no error");
-  EXPECT_NE(message_of(Vec3::UnitX(), tilted(2.1 * axis_tolerance)), "no error");
+  EXPECT_EQ(message_of(Vec3::UnitX(), tilted(1.9 * axis_tolerance)), "accepted");
+  EXPECT_NE(message_of(Vec3::UnitX(), tilted(2.1 * axis_tolerance)), "accepted");
 }
 
 /// A pelvis standing upright in its own frame: origin between the ASIS, PSIS behind and a little above.

@@ -43,8 +43,7 @@ struct HangingBlock {
   HangingBlock() { ligament.fixed[0] = ligament.fixed[1] - Vec3(same_mm, 0, 0); }
 
   LigamentState at(double height_m) const {
-    Pose X_FM = Pose::Identity();
-    X_FM.translation() = Vec3(200, mm_per_m * height_m, 0);
+    Pose X_FM(Eigen::Translation3d(200, mm_per_m * height_m, 0));
     return ligament_state(ligament, X_FM).value();
   }
   double acceleration(double height_m) const { return at(height_m).force_n.y() / mass_kg - gravity; }

@@ -69,11 +69,7 @@ TEST_P(RandomSamples, HaveASoundSurface) {
     TriMesh all;
     for (int round = 0; round < 1000; ++round) {
       const TriMesh mesh = contour_of(random_field(random, GetParam(), cut))->mesh;
-      const auto first = static_cast<Index>(all.vertices.size());
-      const Vec3 shift(8.0 * (round % 32), 8.0 * (round / 32), 0);
-      for (std::size_t v = 0; v < mesh.vertices.size(); ++v) all.vertices.push_back(mesh.vertices[v] + shift);
-      for (const Triangle& t : mesh.triangles)
-        all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      test::append(all, test::shifted_by(mesh, {8.0 * (round % 32), 8.0 * (round / 32), 0}));
     }
     EXPECT_GT(all.triangles.size(), 20'000u);
     test::expect_sound(all);

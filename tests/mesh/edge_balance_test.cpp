@@ -71,14 +71,7 @@ TriMesh shuffled(TriMesh mesh, unsigned seed) {
 
 /// Two cones over one circle: two vertices of many edges.
 TriMesh double_cone(Index around) {
-  TriMesh mesh;
-  mesh.vertices = Points(around + 2);
-  for (Index i = 0; i < around; ++i) {
-    const Index a = 2 + i, b = 2 + (i + 1) % around;
-    mesh.triangles.push_back({0, a, b});
-    mesh.triangles.push_back({1, b, a});
-  }
-  return mesh;
+  return test::turned_solid({{0, 1}, {1, 0}, {0, -1}}, around);
 }
 
 TEST_P(EdgeBalanceOn, OneTriangleTooFewOrTwiceOrTurnedIsFoundAmongMany) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -20,62 +21,35 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int lathe_segments = 16, lathe_rings = 16;
+constexpr int lathe_rings = 16;
+constexpr Index lathe_segments = 16;
 /// The rings of a ball stand at multiples of pi / 17 from its pole: the widest two, 8 and 9, beside its equator. As a share of its radius.
 const double widest = std::sin(8 * pi / 17);
 
-struct RingOfPoints {
-  double radius, height;
-};
-
-/// Rings about z from above, with a first corner each on the x axis, between two poles.
-TriMesh turned_on_a_lathe(const std::vector<RingOfPoints>& profile, double top, double bottom,
-                          const Vec3& stretch = Vec3::Ones()) {
-  TriMesh mesh;
-  for (const RingOfPoints& ring : profile)
-    for (int j = 0; j < lathe_segments; ++j) {
-      const double angle = 2 * pi * j / lathe_segments;
-      const Vec3 p(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.height);
-      mesh.vertices.push_back(stretch.cwiseProduct(p));
-    }
-  const auto count = static_cast<Index>(profile.size());
-  const auto at = [](Index ring, int j) {
-    return ring * lathe_segments + static_cast<Index>(j % lathe_segments);
-  };
-  mesh.vertices.push_back(Vec3(0, 0, top));
-  mesh.vertices.push_back(Vec3(0, 0, bottom));
-  for (int j = 0; j < lathe_segments; ++j) {
-    mesh.triangles.push_back({count * lathe_segments, at(0, j), at(0, j + 1)});
-    mesh.triangles.push_back({count * lathe_segments + 1, at(count - 1, j + 1), at(count - 1, j)});
-    for (Index ring = 0; ring + 1 < count; ++ring) {
-      mesh.triangles.push_back({at(ring, j), at(ring + 1, j), at(ring, j + 1)});
-      mesh.triangles.push_back({at(ring, j + 1), at(ring + 1, j), at(ring + 1, j + 1)});
-    }
-  }
-  return mesh;
-}
-
 TriMesh meshed_ellipsoid(const Vec3& radii) {
-  std::vector<RingOfPoints> profile;
-  for (int i = 1; i <= lathe_rings; ++i)
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= lathe_rings + 1; ++i)
     profile.push_back({std::sin(pi * i / (lathe_rings + 1)), std::cos(pi * i / (lathe_rings + 1))});
-  return turned_on_a_lathe(profile, radii.z(), -radii.z(), radii);
+  return test::mapped(test::turned_solid(profile, lathe_segments),
+                      [&](const Vec3& p) { return Vec3(radii.cwiseProduct(p)); });
 }
 TriMesh meshed_ball(double radius) {
   return meshed_ellipsoid(Vec3::Constant(radius));
 }
 
 TriMesh meshed_cylinder(double radius, double length) {
-  std::vector<RingOfPoints> profile;
+  std::vector<std::array<double, 2>> profile = {{0, length / 2}};
   for (int i = 0; i <= lathe_rings; ++i) profile.push_back({radius, length / 2 - i * length / lathe_rings});
-  return turned_on_a_lathe(profile, length / 2, -length / 2);
+  profile.push_back({0, -length / 2});
+  return test::turned_solid(profile, lathe_segments);
 }
 
 TriMesh meshed_cone(double radius, double length) {
-  std::vector<RingOfPoints> profile;
-  for (int i = 1; i <= lathe_rings; ++i)
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= lathe_rings; ++i)
     profile.push_back({i * radius / lathe_rings, length / 2 - i * length / lathe_rings});
-  return turned_on_a_lathe(profile, length / 2, -length / 2);
+  profile.push_back({0, -length / 2});
+  return test::turned_solid(profile, lathe_segments);
 }
 
 TriMesh sized_box(double x, double y, double z) {
@@ -83,9 +57,7 @@ TriMesh sized_box(double x, double y, double z) {
 }
 
 Pose shifted_by(const Vec3& by) {
-  Pose X = Pose::Identity();
-  X.translation() = by;
-  return X;
+  return Pose(Eigen::Translation3d(by));
 }
 
 double gap_of_meshes(const TriMesh& first, const TriMesh& second, const Pose& X) {

@@ -19,17 +19,7 @@ void expect_sound_outwards(const MeshReport& report) {
   EXPECT_EQ(report.inverted_components.count, 0u);
 }
 
-TriMesh mesh_of(std::initializer_list<Vec3> vertices, std::vector<Triangle> triangles) {
-  TriMesh mesh;
-  for (const Vec3& p : vertices) mesh.vertices.push_back(p);
-  mesh.triangles = std::move(triangles);
-  return mesh;
-}
-
-TriMesh moved(TriMesh mesh, const Vec3& by) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] + by);
-  return mesh;
-}
+using test::mesh_of, test::shifted_by;
 
 TriMesh without_triangle(TriMesh mesh, std::size_t t) {
   mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
@@ -61,7 +51,7 @@ TEST(Inspect, GenusCountsHandles) {
 
   // Two tori glued where a triangle of each was cut out: genus 2.
   TriMesh a = test::torus(10, 3, 16, 8);
-  const TriMesh b = moved(test::torus(10, 3, 16, 8), {50, 0, 0});
+  const TriMesh b = shifted_by(test::torus(10, 3, 16, 8), {50, 0, 0});
   const auto offset = static_cast<Index>(a.vertices.size());
   const Triangle hole_a = a.triangles[0], hole_b = b.triangles[0];
   TriMesh both = test::joined(without_triangle(a, 0), without_triangle(b, 0));
@@ -92,10 +82,10 @@ TEST(Inspect, TheVolumeLosesNothingTenMetresFromTheOrigin) {
   for (auto* axis : {&there.vertices.x, &there.vertices.y, &there.vertices.z}) {
     for (double& value : *axis) value = (value + 0x1p14) - 0x1p14;  // exact to move by 2^14 mm = 16 m
   }
-  const TriMesh far = moved(there, {0x1p14, -0x1p14, 0x1p14});
+  const TriMesh far = shifted_by(there, {0x1p14, -0x1p14, 0x1p14});
   const double bound = 2 * 8 * 0x1p-53 * size * size * size / 6 * static_cast<double>(here.triangles.size());
-  EXPECT_NEAR(*inspect(far).signed_volume, *inspect(moved(far, {-0x1p14, 0x1p14, -0x1p14})).signed_volume,
-              bound);
+  EXPECT_NEAR(*inspect(far).signed_volume,
+              *inspect(shifted_by(far, {-0x1p14, 0x1p14, -0x1p14})).signed_volume, bound);
 }
 
 TEST(Inspect, AHoleIsNamedByItsRim) {
@@ -115,7 +105,7 @@ TEST(Inspect, AHoleIsNamedByItsRim) {
 TEST(Inspect, ABoundaryIsDescribedInALine) {
   const TriMesh square = mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}});
   EXPECT_EQ(describe_boundary(inspect(square)), "an open boundary of 4 edges near (1, 1, 0), from vertex 0");
-  EXPECT_EQ(describe_boundary(inspect(test::joined(square, moved(square, {9, 0, 0})))),
+  EXPECT_EQ(describe_boundary(inspect(test::joined(square, shifted_by(square, {9, 0, 0})))),
             "an open boundary of 4 edges near (1, 1, 0), from vertex 0 (the first of 2)");
   EXPECT_EQ(describe_boundary(inspect(test::box({0, 0, 0}, {1, 1, 1}))), "");
 }
@@ -333,9 +323,8 @@ TEST(Inspect, RandomTangledMeshesAreCountedAsTheDefinitionsSay) {
   for (int round = 0; round < 300; ++round) {
     const Index vertices = 4 + static_cast<Index>(random() % 12);
     TriMesh mesh;
-    for (Index v = 0; v < vertices; ++v) {
+    for (Index v = 0; v < vertices; ++v)
       mesh.vertices.push_back({double(random() % 5), double(random() % 5), double(random() % 5)});
-    }
     const std::size_t triangles = 1 + random() % 30;
     for (std::size_t t = 0; t < triangles; ++t) {
       const auto any = [&] { return static_cast<Index>(random() % vertices); };

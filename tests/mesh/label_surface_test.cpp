@@ -74,13 +74,6 @@ TEST(LabelSurface, MovesInwardsByTheCurvature) {
   EXPECT_NEAR(moved, (many * many - few * few) / radius, std::pow(many, 4) / std::pow(radius, 3) + 0.01);
 }
 
-void append(TriMesh& all, const TriMesh& mesh) {
-  const auto first = static_cast<Index>(all.vertices.size());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) all.vertices.push_back(mesh.vertices[v]);
-  for (const Triangle& t : mesh.triangles)
-    all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-}
-
 VoxelMask random_mask(std::mt19937& random, std::int64_t size, std::int64_t margin, double share,
                       const Eigen::Affine3d& X_WI) {
   std::bernoulli_distribution is_set(share);
@@ -185,8 +178,8 @@ RC_GTEST_PROP(LabelSurface, FollowsItsGrid, ()) {
   mask.image.X_WI = X_WI;
   const LabelSurface mapped = surface_of(mask);
   ASSERT_EQ(mapped.mesh.vertices.size(), plain.mesh.vertices.size());
-  for (std::size_t v = 0; v < plain.mesh.vertices.size(); ++v)
-    ASSERT_LE((mapped.mesh.vertices[v] - X_WI * plain.mesh.vertices[v]).norm(), 1e-9);
+  const TriMesh by_hand = test::mapped(plain.mesh, [&](const Vec3& p) { return Vec3(X_WI * p); });
+  ASSERT_LE(test::farthest(mapped.mesh.vertices, by_hand.vertices), 1e-9);
   const double det = std::abs(X_WI.linear().determinant()), volume = mesh::enclosed_volume(plain.mesh);
   EXPECT_GT(volume, 0);
   EXPECT_NEAR(mesh::enclosed_volume(mapped.mesh), det * volume, 1e-9 * volume);

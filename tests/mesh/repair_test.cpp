@@ -1,12 +1,11 @@
-
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <random>
 
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
+#include "support/complaint.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -34,13 +33,9 @@ std::vector<Vec3> corners_of(const TriMesh& mesh) {
 
 std::string complaint(TriMesh mesh) {
   const TriMesh before = mesh;
-  try {
-    flip_inverted(mesh);
-  } catch (const MeshError& error) {
-    EXPECT_EQ(mesh, before);
-    return error.what();
-  }
-  return "none";
+  const std::string said = test::complaint_of<MeshError>([&] { flip_inverted(mesh); });
+  EXPECT_TRUE(said == "accepted" || mesh == before);
+  return said;
 }
 
 TEST(ExactWeld, MakesASoupTheMeshItWas) {
@@ -55,12 +50,8 @@ TEST(ExactWeld, MakesASoupTheMeshItWas) {
 }
 
 TEST(ExactWeld, KnowsNoToleranceButTakesMinusZeroForZero) {
-  TriMesh mesh;
-  for (const Vec3& p :
-       {Vec3(0, 0, 1), Vec3(-0.0, 0, 1), Vec3(0x1p-1074, 0, 1), Vec3(0, 0, std::nextafter(1, 2))}) {
-    mesh.vertices.push_back(p);
-  }
-  mesh.triangles = {{1, 2, 3}};
+  TriMesh mesh =
+      test::mesh_of({{0, 0, 1}, {-0.0, 0, 1}, {0x1p-1074, 0, 1}, {0, 0, std::nextafter(1, 2)}}, {{1, 2, 3}});
   EXPECT_EQ(weld_exactly(mesh), 1u);
   EXPECT_EQ(mesh.vertices.size(), 3u);
   EXPECT_FALSE(std::signbit(mesh.vertices.x[0]));

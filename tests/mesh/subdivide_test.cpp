@@ -13,16 +13,13 @@ namespace {
 
 double signed_volume(const TriMesh& mesh) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     sum += mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2))) / 6;
-  }
   return sum;
 }
 
 TEST(Subdivide, OneTriangleBecomesFourInTheStatedOrder) {
-  TriMesh mesh;
-  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 2, 0)}) mesh.vertices.push_back(p);
-  mesh.triangles = {{0, 1, 2}};
+  TriMesh mesh = test::mesh_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}});
   const TriMesh finer = mesh::subdivided(mesh);
   // Edges ascending: (0, 1), (0, 2), (1, 2) become vertices 3, 4, 5.
   ASSERT_EQ(finer.vertices.size(), 6u);
@@ -56,11 +53,8 @@ TEST(Subdivide, MidpointsGoWhereTheyArePlacedAndOldVerticesStay) {
 
 TEST(Subdivide, OpenAndNonManifoldEdgesStayShared) {
   // Three triangles on one edge, as in a book with three pages.
-  TriMesh mesh;
-  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, -1, 0)}) {
-    mesh.vertices.push_back(p);
-  }
-  mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}};
+  TriMesh mesh = test::mesh_of({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}},
+                               {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}});
   const TriMesh finer = mesh::subdivided(mesh);
   EXPECT_EQ(finer.vertices.size(), 5u + 7u);
   const auto users = std::count_if(finer.triangles.begin(), finer.triangles.end(), [](const Triangle& t) {

@@ -39,8 +39,7 @@ TEST(ClosestPoints, IsNoughtWhereSurfacesMeetAlsoFarFromAllVertices) {
 TEST(ClosestPoints, OfABallInASocketIsTheGapLessTheSag) {
   const TriMesh socket = test::socket({0, 0, 0}, 23, 28, 4);
   const TriMesh ball = sphere({0, 0, 0}, 20, 4);
-  Pose X = Pose::Identity();
-  X.translation() = Vec3(0.5, 1, -0.25);
+  Pose X(Eigen::Translation3d(0.5, 1, -0.25));
   // Edges of (pi/2)/16 of both radii sag by e^2 / (8 r), 0.024 and 0.028 mm; and the nearest corners of both may be off the
   // line of the centres by an edge, 2 mm: another e^2 / 2 (1/20 - 1/23) = 0.013.
   const double gap = 3 - X.translation().norm(), sag = 0.065;
@@ -112,9 +111,7 @@ TEST(ClosestPoints, AreWhereTheyAreWhateverTheOrigins) {
   // part of the answer.
   const TriMesh socket = test::socket({0, 0, 0}, 23, 28, 3), ball = sphere({0, 0, 0}, 20, 3);
   const Vec3 off(300, -200, 100);
-  TriMesh far_socket = socket;
-  for (std::size_t v = 0; v < socket.vertices.size(); ++v)
-    far_socket.vertices.set(v, socket.vertices[v] + off);
+  const TriMesh far_socket = test::shifted_by(socket, off);
   std::mt19937 random(13);
   std::uniform_real_distribution<double> anywhere(-1, 1);
   for (int round = 0; round < 60; ++round) {
@@ -139,11 +136,8 @@ TEST(ClosestPoints, OfNothingIsNone) {
 
 TEST(MovedTree, HoldsWhatItsTrianglesHave) {
   const TriMesh before = sphere({0, 0, 0}, 10, 3);
-  TriMesh after = before;
-  for (std::size_t v = 0; v < after.vertices.size(); ++v) {
-    const Vec3 p = after.vertices[v];
-    after.vertices.set(v, 1.1 * p + Vec3(std::sin(p.y()), 0, 0.2 * p.x()));
-  }
+  const TriMesh after = test::mapped(
+      before, [](const Vec3& p) { return Vec3(1.1 * p + Vec3(std::sin(p.y()), 0, 0.2 * p.x())); });
   const TriangleTree moved = TriangleTree(before).moved_to(after.vertices);
   EXPECT_EQ(moved.nodes().size(), TriangleTree(before).nodes().size());
   for (const auto& node : moved.nodes())

@@ -91,9 +91,8 @@ TEST(TriangleTree, SplitsTrianglesThatLieInOnePlace) {
   const auto one = mesh.triangles[0];
   mesh.triangles.assign(100, one);
   const mesh::TriangleTree tree(mesh);
-  for (const Node& node : tree.nodes()) {
+  for (const Node& node : tree.nodes())
     EXPECT_TRUE(!node.is_leaf() || node.last - node.first <= mesh::TriangleTree::leaf_triangles);
-  }
   EXPECT_TRUE(mesh::TriangleTree(TriMesh{}).empty());
 }
 

@@ -10,9 +10,7 @@
 namespace condyle::test {
 
 inline Pose translated(const Vec3& by) {
-  Pose X = Pose::Identity();
-  X.translation() = by;
-  return X;
+  return Pose(Eigen::Translation3d(by));
 }
 
 /// A layer with M / h = K, MPa per mm.

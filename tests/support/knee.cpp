@@ -1,7 +1,6 @@
 #include "support/knee.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>

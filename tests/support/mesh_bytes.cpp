@@ -62,9 +62,8 @@ std::string ply_binary(const TriMesh& mesh, const char* coordinate_type, const c
       corner_type);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     append(out, std::int16_t{7}, big_endian);
-    for (const double value : {mesh.vertices.x[v], mesh.vertices.y[v], mesh.vertices.z[v]}) {
+    for (const double value : {mesh.vertices.x[v], mesh.vertices.y[v], mesh.vertices.z[v]})
       append(out, static_cast<Coordinate>(value), big_endian);
-    }
   }
   for (const auto& triangle : mesh.triangles) {
     append(out, std::uint8_t{3});
@@ -201,9 +200,8 @@ std::vector<MeshBytes> stl_files(const TriMesh& mesh) {
 
 std::vector<MeshBytes> obj_files(const TriMesh& mesh) {
   std::string vertices = "# by hand\nmtllib a.mtl\no bone\n", plain, slashes, backwards;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     vertices += fmt::format("v {} {} {}\n", mesh.vertices.x[v], mesh.vertices.y[v], mesh.vertices.z[v]);
-  }
   vertices += "vt 0 0\nvn 0 0 1\ng all\ns off\n";
   const auto count = static_cast<int>(mesh.vertices.size());
   for (const auto& [a, b, c] : mesh.triangles) {

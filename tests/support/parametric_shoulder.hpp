@@ -34,33 +34,6 @@ struct ParametricShoulder {
   static constexpr double dish_half_angle = 35 * std::numbers::pi / 180;
 };
 
-/// The solid that a profile (distance from Z, height along Z) sweeps about Z, wound outwards if the solid is on the left of the
-/// way; first and last point on the axis, all others off it.
-inline TriMesh turned_solid(const std::vector<std::array<double, 2>>& profile, Index around) {
-  TriMesh mesh;
-  const auto rings = static_cast<Index>(profile.size() - 2);
-  mesh.vertices.push_back({0, 0, profile.front()[1]});
-  for (Index r = 1; r <= rings; ++r)
-    for (Index k = 0; k < around; ++k) {
-      // From +Y on, so that there the profile is exact.
-      const double turn = 2 * std::numbers::pi * k / around;
-      mesh.vertices.push_back(
-          {-profile[r][0] * std::sin(turn), profile[r][0] * std::cos(turn), profile[r][1]});
-    }
-  mesh.vertices.push_back({0, 0, profile.back()[1]});
-  const auto at = [&](Index ring, Index k) { return 1 + ring * around + k % around; };
-  const Index last = 1 + rings * around;
-  for (Index k = 0; k < around; ++k) {
-    mesh.triangles.push_back({0, at(0, k), at(0, k + 1)});
-    for (Index r = 0; r + 1 < rings; ++r) {
-      mesh.triangles.push_back({at(r, k), at(r + 1, k), at(r + 1, k + 1)});
-      mesh.triangles.push_back({at(r, k), at(r + 1, k + 1), at(r, k + 1)});
-    }
-    mesh.triangles.push_back({last, at(rings - 1, k + 1), at(rings - 1, k)});
-  }
-  return mesh;
-}
-
 /// A round slab, medial of the joint centre, with a dish about it.
 inline TriMesh slab_with_dish(double dish_radius) {
   constexpr int rings = 30;

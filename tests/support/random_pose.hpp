@@ -8,9 +8,7 @@
 namespace condyle::test {
 
 inline Pose at(const Vec3& translation) {
-  Pose X = Pose::Identity();
-  X.translation() = translation;
-  return X;
+  return Pose(Eigen::Translation3d(translation));
 }
 
 /// Turned anyhow, and moved by up to `reach` along each axis.

@@ -76,13 +76,4 @@ struct RevolvedHip {
   }
 };
 
-inline TriMesh scaled_by(TriMesh mesh, double factor) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, factor * mesh.vertices[v]);
-  return mesh;
-}
-inline TriMesh shifted_by(TriMesh mesh, const Vec3& by) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] + by);
-  return mesh;
-}
-
 }  // namespace condyle::test

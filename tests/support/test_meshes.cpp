@@ -1,5 +1,9 @@
 #include "support/test_meshes.hpp"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -7,11 +11,17 @@
 
 namespace condyle::test {
 
+TriMesh mesh_of(std::initializer_list<Vec3> vertices, std::vector<Triangle> triangles) {
+  TriMesh mesh;
+  for (const Vec3& p : vertices) mesh.vertices.push_back(p);
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
 TriMesh box(const Vec3& low, const Vec3& high) {
   TriMesh mesh;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 8; ++i)
     mesh.vertices.push_back({(i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z()});
-  }
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
@@ -99,11 +109,40 @@ TriMesh torus(double major, double minor, int around, int across) {
   return mesh;
 }
 
+TriMesh turned_solid(const std::vector<std::array<double, 2>>& profile, Index around) {
+  TriMesh mesh;
+  const auto rings = static_cast<Index>(profile.size() - 2);
+  mesh.vertices.push_back({0, 0, profile.front()[1]});
+  for (Index r = 1; r <= rings; ++r)
+    for (Index k = 0; k < around; ++k) {
+      // From +Y on, so that there the profile is exact.
+      const double turn = 2 * std::numbers::pi * k / around;
+      mesh.vertices.push_back(
+          {-profile[r][0] * std::sin(turn), profile[r][0] * std::cos(turn), profile[r][1]});
+    }
+  mesh.vertices.push_back({0, 0, profile.back()[1]});
+  const auto at = [&](Index ring, Index k) { return 1 + ring * around + k % around; };
+  const Index last = 1 + rings * around;
+  for (Index k = 0; k < around; ++k) {
+    mesh.triangles.push_back({0, at(0, k), at(0, k + 1)});
+    for (Index r = 0; r + 1 < rings; ++r) {
+      mesh.triangles.push_back({at(r, k), at(r + 1, k), at(r + 1, k + 1)});
+      mesh.triangles.push_back({at(r, k), at(r + 1, k + 1), at(r, k + 1)});
+    }
+    mesh.triangles.push_back({last, at(rings - 1, k + 1), at(rings - 1, k)});
+  }
+  return mesh;
+}
+
+void append(TriMesh& all, const TriMesh& mesh) {
+  const auto offset = static_cast<Index>(all.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) all.vertices.push_back(mesh.vertices[i]);
+  for (const auto& [p, q, r] : mesh.triangles) all.triangles.push_back({p + offset, q + offset, r + offset});
+}
+
 TriMesh joined(const TriMesh& a, const TriMesh& b) {
   TriMesh mesh = a;
-  const auto offset = static_cast<Index>(a.vertices.size());
-  for (std::size_t i = 0; i < b.vertices.size(); ++i) mesh.vertices.push_back(b.vertices[i]);
-  for (const auto& [p, q, r] : b.triangles) mesh.triangles.push_back({p + offset, q + offset, r + offset});
+  append(mesh, b);
   return mesh;
 }
 
@@ -112,9 +151,52 @@ TriMesh flipped(TriMesh mesh) {
   return mesh;
 }
 
-TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, axis.to_axis(mesh.vertices[v]));
+TriMesh mapped(TriMesh mesh, const std::function<Vec3(const Vec3&)>& place) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, place(mesh.vertices[v]));
   return mesh;
+}
+
+TriMesh scaled_by(const TriMesh& mesh, double factor) {
+  return mapped(mesh, [&](const Vec3& p) { return Vec3(factor * p); });
+}
+
+TriMesh turned(const TriMesh& mesh, const Eigen::Matrix3d& by) {
+  TriMesh out = mapped(mesh, [&](const Vec3& p) { return Vec3(by * p); });
+  return by.determinant() < 0 ? flipped(std::move(out)) : out;
+}
+
+TriMesh shifted_by(const TriMesh& mesh, const Vec3& by) {
+  return mapped(mesh, [&](const Vec3& p) { return Vec3(p + by); });
+}
+
+TriMesh in_floats(TriMesh mesh) {
+  mesh = mapped(std::move(mesh), [](const Vec3& p) { return Vec3(p.cast<float>().cast<double>()); });
+  mesh.vertices.x[0] = -0.0;
+  return mesh;
+}
+
+double farthest(const PointsView& a, const PointsView& b) {
+  if (a.size() != b.size()) return HUGE_VAL;
+  double largest = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) largest = std::max(largest, (a[v] - b[v]).norm());
+  return largest;
+}
+
+void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b, std::string_view where) {
+  ASSERT_EQ(a.size(), b.size()) << where;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(a[i]), std::bit_cast<std::uint64_t>(b[i])) << where << ", " << i;
+}
+
+void expect_same_bits(const TriMesh& a, const TriMesh& b, std::string_view where) {
+  expect_same_bits(a.vertices.x, b.vertices.x, where);
+  expect_same_bits(a.vertices.y, b.vertices.y, where);
+  expect_same_bits(a.vertices.z, b.vertices.z, where);
+  EXPECT_EQ(a.triangles, b.triangles) << where;
+}
+
+TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh) {
+  return mapped(std::move(mesh), [&](const Vec3& p) { return axis.to_axis(p); });
 }
 
 }  // namespace condyle::test

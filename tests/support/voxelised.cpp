@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "condyle/label_surface.hpp"
 

@@ -5,6 +5,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
+#include "support/complaint.hpp"
 
 namespace condyle {
 namespace {
@@ -123,8 +124,8 @@ TEST(ChosenLabels, ByTheNamesOfATask) {
   EXPECT_EQ(chosen(map, "Femur Right", io::LabelTask::total), "0:76 femur_right");
   EXPECT_EQ(chosen(map, "femur_left", io::LabelTask::total_v1),
             "no voxel has the label 88: the image holds 3, 75, 76, 120");
-  EXPECT_TRUE(
-      chosen(map, "femur_lef", io::LabelTask::total_mr).starts_with("no label is called 'femur_lef' (did"));
+  test::expect_begins(chosen(map, "femur_lef", io::LabelTask::total_mr),
+                      "no label is called 'femur_lef' (did");
   EXPECT_TRUE(io::choose_label(map, "femur_left", io::LabelTask::total).notes.empty());
 }
 
@@ -148,7 +149,7 @@ TEST(ChosenLabels, ByNumberAreTakenAsGivenAndNoted) {
   EXPECT_EQ(io::choose_label(without_names(), "3").notes[0].text,
             "Label 3 is taken as given: neither the file nor a known table names it.");
   EXPECT_EQ(chosen(without_names(), "90"), "no voxel has the label 90: the image holds 3, 75, 76, 120");
-  EXPECT_TRUE(chosen(without_names(), "-3").starts_with("'-3': the file names no labels"));
+  test::expect_begins(chosen(without_names(), "-3"), "'-3': the file names no labels");
 }
 
 TEST(ChosenLabels, ANumberOfVersion1IsSomethingElseInVersion2) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <numbers>
 #include <random>
 
@@ -48,11 +47,7 @@ PlacedJoint placed(Side side, Body fixed, Body mobile) {
 }
 
 TriMesh in_lps(TriMesh mesh) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec3 p = mesh.vertices[v];
-    mesh.vertices.set(v, Vec3(-p.z(), -p.x(), p.y()));
-  }
-  return mesh;
+  return test::mapped(mesh, [](const Vec3& p) { return Vec3(-p.z(), -p.x(), p.y()); });
 }
 
 const std::vector<Hip>& hips() {
@@ -212,16 +207,14 @@ TEST(DegradedHips, KeepTheirNotesInTheJointFile) {
   io::write_mesh(found.fixed_mesh, found.fixed.surface.mesh);
   io::write_mesh(found.mobile_mesh, found.mobile.surface.mesh);
   std::string toml = found.proposal.toml;
-  std::ofstream(folder.path() / "hip.toml") << toml;
-  const io::LoadedJoint read = io::read_joint(folder.path() / "hip.toml");
+  const io::LoadedJoint read = io::read_joint(folder.file("hip.toml", toml));
   const auto notes = check_joint(read.joint, read.report.placement);
   EXPECT_EQ(std::count_if(notes.begin(), notes.end(),
                           [&](const JointNote& each) { return each.text == note.text; }),
             1)
       << note.text;
   toml.replace(toml.find("pieces_left_out"), 15, "wrong_side");
-  std::ofstream(folder.path() / "hip.toml") << toml;
-  EXPECT_THROW(io::read_joint(folder.path() / "hip.toml"), FileError);
+  EXPECT_THROW(io::read_joint(folder.file("hip.toml", toml)), FileError);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <cstring>
 #include <random>
 #include <stdexcept>
 
@@ -52,20 +51,7 @@ void put_all(std::string& bytes, std::size_t at, const std::vector<double>& valu
 }
 
 int bits_of(int type) {
-  switch (type) {
-    case 2:
-    case 256:
-      return 8;
-    case 4:
-    case 512:
-      return 16;
-    case 8:
-    case 768:
-    case 16:
-      return 32;
-    default:
-      return 64;
-  }
+  return 8 * static_cast<int>(voxels_as(type, {0}, std::endian::little).size());
 }
 
 }  // namespace
@@ -89,30 +75,17 @@ std::string as_zlib(std::string_view bytes) {
 }
 
 std::string voxels_as(int type, const std::vector<std::uint32_t>& values, std::endian order) {
-  switch (type) {
-    case 2:
-      return as_type<std::uint8_t>(values, order);
-    case 256:
-      return as_type<std::int8_t>(values, order);
-    case 4:
-      return as_type<std::int16_t>(values, order);
-    case 512:
-      return as_type<std::uint16_t>(values, order);
-    case 8:
-      return as_type<std::int32_t>(values, order);
-    case 768:
-      return as_type<std::uint32_t>(values, order);
-    case 1024:
-      return as_type<std::int64_t>(values, order);
-    case 1280:
-      return as_type<std::uint64_t>(values, order);
-    case 16:
-      return as_type<float>(values, order);
-    case 64:
-      return as_type<double>(values, order);
-    default:
-      throw std::runtime_error("no type");
-  }
+  if (type == 2) return as_type<std::uint8_t>(values, order);
+  if (type == 256) return as_type<std::int8_t>(values, order);
+  if (type == 4) return as_type<std::int16_t>(values, order);
+  if (type == 512) return as_type<std::uint16_t>(values, order);
+  if (type == 8) return as_type<std::int32_t>(values, order);
+  if (type == 768) return as_type<std::uint32_t>(values, order);
+  if (type == 1024) return as_type<std::int64_t>(values, order);
+  if (type == 1280) return as_type<std::uint64_t>(values, order);
+  if (type == 16) return as_type<float>(values, order);
+  if (type == 64) return as_type<double>(values, order);
+  throw std::runtime_error("no type");
 }
 
 std::string nifti_extension(int code, std::string text, std::endian order) {

@@ -5,12 +5,9 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "support/temporary_folder.hpp"
 
 /// Label maps written in every way that the readers know, by code that shares nothing with them.
 

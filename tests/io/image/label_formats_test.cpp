@@ -7,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
+#include "support/complaint.hpp"
 
 namespace condyle {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using io::LabelFormat;
+using io::LabelNoteCode;
+using io::StatedAxes;
 using test::LabelImage;
 using test::TemporaryFolder;
 
@@ -216,12 +220,11 @@ INSTANTIATE_TEST_SUITE_P(EveryWay, LabelFormats,
                                   std::get<1>(both.param).name;
                          });
 
-io::LabelMap read(const std::string& bytes, io::LabelFormat format,
-                  const io::LabelFileOptions& options = {}) {
+io::LabelMap read(const std::string& bytes, LabelFormat format, const io::LabelFileOptions& options = {}) {
   return io::read_labels(bytes, format, "bones", options);
 }
 
-bool has_note(const io::LabelMap& map, io::LabelNoteCode code) {
+bool has_note(const io::LabelMap& map, LabelNoteCode code) {
   return std::any_of(map.notes.begin(), map.notes.end(), [&](const auto& note) { return note.code == code; });
 }
 
@@ -230,7 +233,7 @@ TEST(LabelLayers, LieInterleavedWhereTheListIsFirstAndElsewhereWhereItStands) {
   for (const bool is_gzip : {false, true})
     for (std::size_t axis = 0; axis < 4; ++axis) {
       SCOPED_TRACE(axis);
-      expect_same(read(test::nrrd(image, {.is_gzip = is_gzip, .layer_axis = axis}), io::LabelFormat::nrrd),
+      expect_same(read(test::nrrd(image, {.is_gzip = is_gzip, .layer_axis = axis}), LabelFormat::nrrd),
                   image);
     }
 }
@@ -241,7 +244,7 @@ TEST(LabelLayers, StayApartOverManyBlocks) {
   for (auto& layer : image.layers)
     for (int i = 0; i < 70 * 71 * 72; ++i) layer.push_back(static_cast<std::uint32_t>(random() % 7));
   for (const std::size_t axis : {0u, 2u, 3u})
-    expect_same(read(test::nrrd(image, {.layer_axis = axis}), io::LabelFormat::nrrd), image);
+    expect_same(read(test::nrrd(image, {.layer_axis = axis}), LabelFormat::nrrd), image);
 }
 
 TEST(NiftiAffine, ByQuaternionIsThatOfTheRows) {
@@ -253,8 +256,8 @@ TEST(NiftiAffine, ByQuaternionIsThatOfTheRows) {
       const Matrix3d axes = (is_mirrored ? turned() * Vector3d(1, 1, -1).asDiagonal() : turned()) *
                             Matrix3d(spacing.asDiagonal());
       const auto image = test::label_image(affine(axes, origin));
-      const auto map = read(test::nifti(image, {.version = version, .sform = false, .qform = true}),
-                            io::LabelFormat::nifti);
+      const auto map =
+          read(test::nifti(image, {.version = version, .sform = false, .qform = true}), LabelFormat::nifti);
       // NIfTI-1 keeps floats: 2^-24 of the numbers at most, those of 800 mm.
       expect_same(map, image, version == 1 ? 800 * std::ldexp(1, -22) : 1e-9);
     }
@@ -267,11 +270,10 @@ TEST(NiftiAffine, AHalfTurnHasNoRealPart) {
     // In RAS, as the quaternion is; the image is in LPS.
     const Matrix3d axes = Vector3d(-1, -1, 1).asDiagonal() * half * spacing.asDiagonal();
     const auto image = test::label_image(affine(axes, origin));
-    expect_same(
-        read(test::nifti(image, {.version = 2, .sform = false, .qform = true}), io::LabelFormat::nifti),
-        image);
+    expect_same(read(test::nifti(image, {.version = 2, .sform = false, .qform = true}), LabelFormat::nifti),
+                image);
     // In floats, (0.6, 0, 0.8) is longer than 1: the square of the real part would be negative.
-    expect_same(read(test::nifti(image, {.sform = false, .qform = true}), io::LabelFormat::nifti), image,
+    expect_same(read(test::nifti(image, {.sform = false, .qform = true}), LabelFormat::nifti), image,
                 800 * std::ldexp(1, -22));
   }
 }
@@ -281,25 +283,25 @@ TEST(NiftiAffine, TheFirstPixdimIsPlusForZero) {
   auto bytes = test::nifti(image, {.version = 2, .sform = false, .qform = true});
   ASSERT_EQ(bytes.substr(104, 8), test::bytes_of(1.0, std::endian::little));
   test::put(bytes, 104, 0.0);
-  expect_same(read(bytes, io::LabelFormat::nifti), image);
+  expect_same(read(bytes, LabelFormat::nifti), image);
 }
 
 TEST(NiftiAffine, TwoThatDifferAreNotedAndTheUserChooses) {
   const auto image = test::label_image(placements()[0].X_WI);
   auto bytes = test::nifti(image, {.version = 2, .qform = true});
-  EXPECT_FALSE(has_note(read(bytes, io::LabelFormat::nifti), io::LabelNoteCode::two_affines));
+  EXPECT_FALSE(has_note(read(bytes, LabelFormat::nifti), LabelNoteCode::two_affines));
 
   // The offset along x: just below and just above a tenth of a voxel.
   const auto x = -origin.x();
   test::put(bytes, 376, x + 0.099 * spacing.x());
-  EXPECT_FALSE(has_note(read(bytes, io::LabelFormat::nifti), io::LabelNoteCode::two_affines));
+  EXPECT_FALSE(has_note(read(bytes, LabelFormat::nifti), LabelNoteCode::two_affines));
   test::put(bytes, 376, x + 0.101 * spacing.x());
-  const auto by_sform = read(bytes, io::LabelFormat::nifti);
-  EXPECT_TRUE(has_note(by_sform, io::LabelNoteCode::two_affines));
+  const auto by_sform = read(bytes, LabelFormat::nifti);
+  EXPECT_TRUE(has_note(by_sform, LabelNoteCode::two_affines));
   expect_same(by_sform, image);
 
-  const auto by_qform = read(bytes, io::LabelFormat::nifti, {.affine = io::AffineChoice::qform});
-  EXPECT_TRUE(has_note(by_qform, io::LabelNoteCode::two_affines));
+  const auto by_qform = read(bytes, LabelFormat::nifti, {.affine = io::AffineChoice::qform});
+  EXPECT_TRUE(has_note(by_qform, LabelNoteCode::two_affines));
   EXPECT_NEAR(by_qform.grid.X_WI.translation().x(), origin.x() - 0.101 * spacing.x(), 1e-12);
 }
 
@@ -308,9 +310,9 @@ TEST(NiftiAffine, ThatDoesNotCountMayBeBroken) {
   for (const std::size_t at : {std::size_t{112}, std::size_t{352}, std::size_t{376}}) {  // pixdim[1], b, x
     auto bytes = test::nifti(image, {.version = 2, .qform = true});
     test::put(bytes, at, std::nan(""));
-    const auto map = read(bytes, io::LabelFormat::nifti);
+    const auto map = read(bytes, LabelFormat::nifti);
     expect_same(map, image);
-    EXPECT_TRUE(has_note(map, io::LabelNoteCode::two_affines));
+    EXPECT_TRUE(has_note(map, LabelNoteCode::two_affines));
   }
 }
 
@@ -321,55 +323,53 @@ TEST(NiftiAffine, NotesVoxelsThatPixdimHasInAnotherSize) {
     for (int axis = 0; axis < 3; ++axis)
       test::put(bytes, 112 + 8 * static_cast<std::size_t>(axis),
                 factor * image.X_WI.linear().col(axis).norm());
-    return read(bytes, io::LabelFormat::nifti, {.affine = affine});
+    return read(bytes, LabelFormat::nifti, {.affine = affine});
   };
   const auto noted = with_size(0.5);
-  EXPECT_TRUE(has_note(noted, io::LabelNoteCode::two_voxel_sizes));
+  EXPECT_TRUE(has_note(noted, LabelNoteCode::two_voxel_sizes));
   expect_same(noted, image);
-  EXPECT_FALSE(has_note(with_size(1), io::LabelNoteCode::two_voxel_sizes));
-  EXPECT_FALSE(has_note(with_size(1.0009), io::LabelNoteCode::two_voxel_sizes)) << "three digits";
-  EXPECT_TRUE(has_note(with_size(1.0011), io::LabelNoteCode::two_voxel_sizes));
-  EXPECT_FALSE(has_note(with_size(0), io::LabelNoteCode::two_voxel_sizes)) << "no size at all";
-  EXPECT_FALSE(has_note(with_size(0.5, io::AffineChoice::qform), io::LabelNoteCode::two_voxel_sizes))
+  EXPECT_FALSE(has_note(with_size(1), LabelNoteCode::two_voxel_sizes));
+  EXPECT_FALSE(has_note(with_size(1.0009), LabelNoteCode::two_voxel_sizes)) << "three digits";
+  EXPECT_TRUE(has_note(with_size(1.0011), LabelNoteCode::two_voxel_sizes));
+  EXPECT_FALSE(has_note(with_size(0), LabelNoteCode::two_voxel_sizes)) << "no size at all";
+  EXPECT_FALSE(has_note(with_size(0.5, io::AffineChoice::qform), LabelNoteCode::two_voxel_sizes))
       << "the qform takes pixdim";
 }
 
 TEST(NiftiAffine, WithoutOrientationNeedsStatedAxes) {
   const auto image = test::label_image(Affine3d(Eigen::Scaling(spacing)));
   const auto bytes = test::nifti(image, {.sform = false});
-  EXPECT_THROW(read(bytes, io::LabelFormat::nifti), FileError);
-  expect_same(read(bytes, io::LabelFormat::nifti, {.axes = io::StatedAxes::lps}), image);
-  const auto ras = read(bytes, io::LabelFormat::nifti, {.axes = io::StatedAxes::ras});
+  EXPECT_THROW(read(bytes, LabelFormat::nifti), FileError);
+  expect_same(read(bytes, LabelFormat::nifti, {.axes = StatedAxes::lps}), image);
+  const auto ras = read(bytes, LabelFormat::nifti, {.axes = StatedAxes::ras});
   EXPECT_EQ(ras.grid.X_WI.linear(), Matrix3d(Vector3d(-0.75, -0.8125, 2.5).asDiagonal()));
 }
 
 TEST(StatedAxes, AreNotedWhereTheFileHasItsOwn) {
   const auto image = test::label_image(placements()[3].X_WI);
-  const std::pair<io::LabelFormat, std::string> files[] = {{io::LabelFormat::nifti, test::nifti(image)},
-                                                           {io::LabelFormat::nrrd, test::nrrd(image, {})}};
+  const std::pair<LabelFormat, std::string> files[] = {{LabelFormat::nifti, test::nifti(image)},
+                                                       {LabelFormat::nrrd, test::nrrd(image, {})}};
   for (const auto& [format, bytes] : files) {
-    EXPECT_FALSE(has_note(read(bytes, format), io::LabelNoteCode::axes_not_used));
-    const auto map = read(bytes, format, {.axes = io::StatedAxes::las});
+    EXPECT_FALSE(has_note(read(bytes, format), LabelNoteCode::axes_not_used));
+    const auto map = read(bytes, format, {.axes = StatedAxes::las});
     expect_same(map, image);
-    EXPECT_TRUE(has_note(map, io::LabelNoteCode::axes_not_used));
+    EXPECT_TRUE(has_note(map, LabelNoteCode::axes_not_used));
   }
   const auto upright = test::label_image(Affine3d(Eigen::Scaling(spacing)));
-  EXPECT_FALSE(has_note(
-      read(test::nifti(upright, {.sform = false}), io::LabelFormat::nifti, {.axes = io::StatedAxes::lps}),
-      io::LabelNoteCode::axes_not_used));
   EXPECT_FALSE(
-      has_note(read(test::nrrd(image, {.space = ""}), io::LabelFormat::nrrd, {.axes = io::StatedAxes::lps}),
-               io::LabelNoteCode::axes_not_used));
+      has_note(read(test::nifti(upright, {.sform = false}), LabelFormat::nifti, {.axes = StatedAxes::lps}),
+               LabelNoteCode::axes_not_used));
+  EXPECT_FALSE(has_note(read(test::nrrd(image, {.space = ""}), LabelFormat::nrrd, {.axes = StatedAxes::lps}),
+                        LabelNoteCode::axes_not_used));
 }
 
 TEST(NiftiUnits, AreConverted) {
   const auto image = test::label_image(placements()[2].X_WI);
   for (const auto& [code, mm] : {std::pair{1, 1000.0}, {2, 1.0}, {3, 1e-3}})
-    expect_same(
-        read(test::nifti(image, {.version = 2, .units = code, .unit_mm = mm}), io::LabelFormat::nifti),
-        image);
-  const auto unknown = read(test::nifti(image, {.units = 0}), io::LabelFormat::nifti);
-  EXPECT_TRUE(has_note(unknown, io::LabelNoteCode::unknown_units));
+    expect_same(read(test::nifti(image, {.version = 2, .units = code, .unit_mm = mm}), LabelFormat::nifti),
+                image);
+  const auto unknown = read(test::nifti(image, {.units = 0}), LabelFormat::nifti);
+  EXPECT_TRUE(has_note(unknown, LabelNoteCode::unknown_units));
   expect_same(unknown, image);
 }
 
@@ -377,14 +377,14 @@ TEST(NiftiVolumes, AreChosenByNumber) {
   const auto image = test::label_image(placements()[1].X_WI, 3);
   for (const bool is_gzip : {false, true}) {
     const auto bytes = is_gzip ? test::gzipped(test::nifti(image)) : test::nifti(image);
-    EXPECT_THROW(read(bytes, io::LabelFormat::nifti), FileError);
-    EXPECT_THROW(read(bytes, io::LabelFormat::nifti, {.volume = 3}), FileError);
-    EXPECT_THROW(read(bytes, io::LabelFormat::nifti, {.volume = -1}), FileError);
+    EXPECT_THROW(read(bytes, LabelFormat::nifti), FileError);
+    EXPECT_THROW(read(bytes, LabelFormat::nifti, {.volume = 3}), FileError);
+    EXPECT_THROW(read(bytes, LabelFormat::nifti, {.volume = -1}), FileError);
     if (!is_gzip) {
-      EXPECT_THROW(read(bytes.substr(0, bytes.size() - 1), io::LabelFormat::nifti, {.volume = 0}), FileError);
+      EXPECT_THROW(read(bytes.substr(0, bytes.size() - 1), LabelFormat::nifti, {.volume = 0}), FileError);
     }
     for (std::size_t volume = 0; volume < 3; ++volume) {
-      const auto map = read(bytes, io::LabelFormat::nifti, {.volume = static_cast<std::int64_t>(volume)});
+      const auto map = read(bytes, LabelFormat::nifti, {.volume = static_cast<std::int64_t>(volume)});
       expect_same(map, {image.size, image.X_WI, {image.layers[volume]}});
       EXPECT_TRUE(map.notes.empty());
     }
@@ -396,28 +396,28 @@ TEST(LabelValues, WithinAThousandthOfAWholeNumberCountAsIt) {
   auto bytes = test::nifti(image, {.type = 64});
   test::put(bytes, 352, 1.0009);
   test::put(bytes, 360, 1.9991);
-  expect_same(read(bytes, io::LabelFormat::nifti), image);
+  expect_same(read(bytes, LabelFormat::nifti), image);
   test::put(bytes, 352, 1.0011);
-  EXPECT_THROW(read(bytes, io::LabelFormat::nifti), FileError);
+  EXPECT_THROW(read(bytes, LabelFormat::nifti), FileError);
 }
 
 TEST(LabelValues, ReachTheLargestNumberOf32Bits) {
   const LabelImage image{{3, 1, 1}, Affine3d::Identity(), {{0, 4294967295u, 65536}}};
   for (const int type : {768, 1024, 1280, 64})
-    expect_same(read(test::nifti(image, {.type = type}), io::LabelFormat::nifti), image);
+    expect_same(read(test::nifti(image, {.type = type}), LabelFormat::nifti), image);
 }
 
 TEST(LabelValues, AreAtMost65535Different) {
   LabelImage image{{65536, 1, 1}, Affine3d::Identity(), {{}}};
   for (std::uint32_t i = 0; i < 65536; ++i) image.layers[0].push_back(std::min(i, 65534u));
-  expect_same(read(test::nrrd(image, {.type = 512}), io::LabelFormat::nrrd), image);
+  expect_same(read(test::nrrd(image, {.type = 512}), LabelFormat::nrrd), image);
   image.layers[0].back() = 65535;
-  EXPECT_THROW(read(test::nrrd(image, {.type = 512}), io::LabelFormat::nrrd), FileError);
-  EXPECT_THROW(read(test::nrrd(image, {.type = 768}), io::LabelFormat::nrrd), FileError);
+  EXPECT_THROW(read(test::nrrd(image, {.type = 512}), LabelFormat::nrrd), FileError);
+  EXPECT_THROW(read(test::nrrd(image, {.type = 768}), LabelFormat::nrrd), FileError);
 }
 
 TEST(LabelGrid, HasNoNegativeZeros) {
-  const auto map = read(test::nifti(test::label_image(placements()[0].X_WI)), io::LabelFormat::nifti);
+  const auto map = read(test::nifti(test::label_image(placements()[0].X_WI)), LabelFormat::nifti);
   for (const double number : map.grid.X_WI.matrix().reshaped())
     EXPECT_FALSE(number == 0 && std::signbit(number));
 }
@@ -426,8 +426,8 @@ TEST(NrrdSpace, WithoutAKnownWorldNeedsAStatedOne) {
   const auto image = test::label_image(placements()[3].X_WI);
   for (const char* space : {"", "3D-right-handed"}) {
     const auto bytes = test::nrrd(image, {.space = space});
-    EXPECT_THROW(read(bytes, io::LabelFormat::nrrd), FileError);
-    expect_same(read(bytes, io::LabelFormat::nrrd, {.axes = io::StatedAxes::lps}), image);
+    EXPECT_THROW(read(bytes, LabelFormat::nrrd), FileError);
+    expect_same(read(bytes, LabelFormat::nrrd, {.axes = StatedAxes::lps}), image);
   }
 }
 
@@ -435,7 +435,7 @@ TEST(NrrdSpace, UnitsAreConverted) {
   auto image = test::label_image(placements()[3].X_WI);
   const auto bytes = test::nrrd(image, {.more_lines = "space units: \"um\" \"um\" \"um\"\n"});
   image.X_WI.matrix().topRows<3>() *= 1e-3;
-  expect_same(read(bytes, io::LabelFormat::nrrd), image);
+  expect_same(read(bytes, LabelFormat::nrrd), image);
 }
 
 TEST(MetaImageMatrix, HasTheAxesInItsRows) {
@@ -443,7 +443,7 @@ TEST(MetaImageMatrix, HasTheAxesInItsRows) {
   const std::string header =
       "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\nElementSpacing = 10 10 10\nOffset = 1 2 3\n"
       "TransformMatrix = 0.8 0.6 0 -0.6 0.8 0 0 0 1\nElementDataFile = LOCAL\n";
-  const auto map = read(header + std::string("\1\2", 2), io::LabelFormat::metaimage);
+  const auto map = read(header + std::string("\1\2", 2), LabelFormat::metaimage);
   EXPECT_LE((map.grid.X_WI * Vector3d(1, 0, 0) - Vector3d(9, 8, 3)).norm(), 1e-12);
   EXPECT_LE((map.grid.X_WI * Vector3d(0, 1, 0) - Vector3d(-5, 10, 3)).norm(), 1e-12);
 }
@@ -452,16 +452,11 @@ TEST(MetaImageMatrix, ThatIsMissingNeedsStatedAxes) {
   const std::string bytes = std::string(
       "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\nElementSpacing = 10 20 30\nOffset = 1 2 3\n"
       "ElementDataFile = LOCAL\n\1\2");
-  try {
-    read(bytes, io::LabelFormat::metaimage);
-    ADD_FAILURE() << "read";
-  } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("TransformMatrix: is missing"), std::string::npos)
-        << error.what();
-  }
-  const auto lps = read(bytes, io::LabelFormat::metaimage, {.axes = io::StatedAxes::lps});
+  test::expect_says(test::complaint_of<FileError>([&] { read(bytes, LabelFormat::metaimage); }),
+                    "TransformMatrix: is missing");
+  const auto lps = read(bytes, LabelFormat::metaimage, {.axes = StatedAxes::lps});
   EXPECT_EQ(lps.grid.X_WI * Vector3d(1, 1, 1), Vector3d(11, 22, 33));
-  const auto ras = read(bytes, io::LabelFormat::metaimage, {.axes = io::StatedAxes::ras});
+  const auto ras = read(bytes, LabelFormat::metaimage, {.axes = StatedAxes::ras});
   EXPECT_EQ(ras.grid.X_WI * Vector3d(1, 1, 1), Vector3d(-11, -22, 33));
 }
 
@@ -475,31 +470,30 @@ TEST(LabelHeaders, OfAnyLineEndsAndWithAMarkOfUtf8AreRead) {
   for (const std::string_view mark : {"", "\xEF\xBB\xBF"})
     for (const std::string_view end : {"\n", "\r", "\r\n"}) {
       const std::string start(mark);
-      expect_same(read(start + with_ends(test::nrrd_header(image), end) + test::nrrd_data(image),
-                       io::LabelFormat::nrrd),
-                  image);
+      expect_same(
+          read(start + with_ends(test::nrrd_header(image), end) + test::nrrd_data(image), LabelFormat::nrrd),
+          image);
       expect_same(read(start + with_ends(test::meta_header(image), end) + test::meta_data(image),
-                       io::LabelFormat::metaimage),
+                       LabelFormat::metaimage),
                   image);
     }
 }
 
 TEST(LabelBytes, AreNotedBeyondThoseThatTheHeaderPromises) {
   const auto image = test::label_image(placements()[0].X_WI);
-  for (const auto& [bytes, format] : {std::pair{test::nifti(image), io::LabelFormat::nifti},
-                                      {test::nrrd(image), io::LabelFormat::nrrd},
-                                      {test::meta(image), io::LabelFormat::metaimage}}) {
-    EXPECT_FALSE(has_note(read(bytes, format), io::LabelNoteCode::more_bytes));
+  for (const auto& [bytes, format] : {std::pair{test::nifti(image), LabelFormat::nifti},
+                                      {test::nrrd(image), LabelFormat::nrrd},
+                                      {test::meta(image), LabelFormat::metaimage}}) {
+    EXPECT_FALSE(has_note(read(bytes, format), LabelNoteCode::more_bytes));
     const auto map = read(bytes + "x", format);
-    EXPECT_TRUE(has_note(map, io::LabelNoteCode::more_bytes));
+    EXPECT_TRUE(has_note(map, LabelNoteCode::more_bytes));
     expect_same(map, image);
   }
 }
 
 TEST(EmptySegmentation, IsNotedForASingleVoxel) {
   const LabelImage image{{1, 1, 1}, Affine3d::Identity(), {{0}}};
-  EXPECT_TRUE(
-      has_note(read(test::nrrd(image), io::LabelFormat::nrrd), io::LabelNoteCode::empty_segmentation));
+  EXPECT_TRUE(has_note(read(test::nrrd(image), LabelFormat::nrrd), LabelNoteCode::empty_segmentation));
 }
 
 TEST(DetachedData, LieBelowTheFolderOfTheHeaderUnlessTheUserAllows) {
@@ -531,9 +525,9 @@ TEST(DetachedData, LieBelowTheFolderOfTheHeaderUnlessTheUserAllows) {
 }
 
 TEST(LabelFormatOf, IsWhatTheNameEndsIn) {
-  EXPECT_EQ(io::label_format_of("a/b.nii.gz"), io::LabelFormat::nifti);
-  EXPECT_EQ(io::label_format_of("B.SEG.NRRD"), io::LabelFormat::nrrd);
-  EXPECT_EQ(io::label_format_of("b.mhd"), io::LabelFormat::metaimage);
+  EXPECT_EQ(io::label_format_of("a/b.nii.gz"), LabelFormat::nifti);
+  EXPECT_EQ(io::label_format_of("B.SEG.NRRD"), LabelFormat::nrrd);
+  EXPECT_EQ(io::label_format_of("b.mhd"), LabelFormat::metaimage);
   EXPECT_EQ(io::label_format_of("b.stl"), std::nullopt);
   EXPECT_EQ(io::label_format_of("b.gz"), std::nullopt);
 }

@@ -6,8 +6,6 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
-#include <cmath>
-
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
 

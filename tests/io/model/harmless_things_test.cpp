@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <tuple>
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -19,11 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string geometry(std::string_view file, std::string_view more = "") {
+  return fmt::format(
+      R"(<attached_geometry><Mesh name="m"><mesh_file>{}</mesh_file>{}</Mesh></attached_geometry>)", file,
+      more);
+}
+std::string other_body(std::string_view inside) {
+  return fmt::format("<Body name=\"other\">{}</Body>", inside);
+}
+
 /// A knee of two bodies, with room for whatever else a model holds.
 struct SmallKnee {
   std::string units = "meters";
-  std::string femur =
-      R"(<attached_geometry><Mesh name="m"><mesh_file>femur.ply</mesh_file></Mesh></attached_geometry>)";
+  std::string femur = geometry("femur.ply");
   std::string bodies = "", joints = "", more = "";
   std::string parent_frame = "/bodyset/femur_r";
 
@@ -47,11 +55,7 @@ class HarmlessThings : public ::testing::Test {
   }
 
   io::Model read(const SmallKnee& knee) const {
-    std::ofstream(folder_.path() / "model.osim", std::ios::binary) << knee.text();
-    return io::read_model(folder_.path() / "model.osim");
-  }
-  void write(const char* name, std::string_view bytes) const {
-    std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
+    return io::read_model(folder_.file("model.osim", knee.text()));
   }
 
   /// The notes of the proposal for the knee, or why there is none.
@@ -92,42 +96,29 @@ TEST_F(HarmlessThings, AreJointsAndBodiesWithoutNames) {
                     empty = fmt::format(fmt::runtime(pin), " name=\"\"");
   const SmallKnee knee{.bodies = "<Body name=\"other\"/>", .joints = nameless + empty};
   const std::string notes = proposed(knee);
-  EXPECT_TRUE(has(notes, "no_name: line 6: a PinJoint of 'other' has no name, and nobody can ask for it"))
-      << notes;
+  test::expect_says(notes, "no_name: line 6: a PinJoint of 'other' has no name, and nobody can ask for it");
   EXPECT_EQ(read(knee).joints.size(), 3u);
   EXPECT_THROW(io::joint_named(read(knee), ""), UsageError);
-  const std::string of_bodies =
-      proposed({.bodies = "<Body/><Body name=\"\"><attached_geometry><Mesh name=\"m\">"
-                          "<mesh_file>x.ply</mesh_file></Mesh></attached_geometry></Body>"});
-  EXPECT_TRUE(has(of_bodies, "no_name: line 4: a body has no name and is left out")) << of_bodies;
+  test::expect_says(proposed({.bodies = "<Body/><Body name=\"\">" + geometry("x.ply") + "</Body>"}),
+                    "no_name: line 4: a body has no name and is left out");
 }
 
 TEST_F(HarmlessThings, OfAWeldWithoutANameAreItsBones) {
   const std::string weld =
       "<WeldJoint><socket_parent_frame>/bodyset/tibia_r</socket_parent_frame>"
       "<socket_child_frame>/bodyset/other</socket_child_frame></WeldJoint>";
-  const SmallKnee knee{
-      .bodies =
-          "<Body name=\"other\"><attached_geometry><Mesh name=\"m\"><mesh_file>other.ply</mesh_file></Mesh>"
-          "</attached_geometry></Body>",
-      .joints = weld};
-  const io::Model model = read(knee);
+  const io::Model model = read({.bodies = other_body(geometry("other.ply")), .joints = weld});
   EXPECT_EQ(io::meshes_of(model, io::joint_named(model, "knee_r"), BodyRole::mobile).size(), 2u);
 }
 
 TEST_F(HarmlessThings, AreOtherJointsBodiesMeshesAndForces) {
-  const std::string mesh = "<Mesh name=\"m\"><mesh_file>other.ply</mesh_file>{}</Mesh>";
-  const auto body = [&](std::string_view in) {
-    return fmt::format("<Body name=\"other\"><attached_geometry>{}</attached_geometry></Body>",
-                       fmt::format(fmt::runtime(mesh), in));
-  };
+  const auto body = [&](std::string_view in) { return other_body(geometry("other.ply", in)); };
   const SmallKnee cases[] = {
       {.bodies = body("<scale_factors>1 1</scale_factors>")},
       {.bodies = body("<socket_frame>/bodyset/nowhere</socket_frame>")},
-      {.bodies = "<Body name=\"other\"><components><PhysicalOffsetFrame "
-                 "name=\"f\"><socket_parent>..</socket_parent>"
-                 "<translation>1 nan 0</translation></PhysicalOffsetFrame></components></Body>"},
-      {.bodies = "<Body name=\"other\"><components><PhysicalOffsetFrame name=\"f\"/></components></Body>"},
+      {.bodies = other_body("<components><PhysicalOffsetFrame name=\"f\"><socket_parent>..</socket_parent>"
+                            "<translation>1 nan 0</translation></PhysicalOffsetFrame></components>")},
+      {.bodies = other_body("<components><PhysicalOffsetFrame name=\"f\"/></components>")},
       {.bodies = "<Body name=\"other\"/><Body name=\"other\"/>"},
       {.bodies = "<Body name=\"oth\xe9r\"/>"},
       {.joints = "<PinJoint name=\"a\xe9\"/>"},
@@ -146,29 +137,24 @@ TEST_F(HarmlessThings, AreOtherJointsBodiesMeshesAndForces) {
     const std::string notes = proposed(knee);
     EXPECT_FALSE(has(notes, "refused") || has(notes, "unreadable")) << notes << knee.text();
   }
-  EXPECT_TRUE(
-      has(proposed(cases[9]), "left_out: line 6: constraint 'c': dependent_coordinate_name is missing"))
-      << proposed(cases[9]);
+  test::expect_says(proposed(cases[9]),
+                    "left_out: line 6: constraint 'c': dependent_coordinate_name is missing");
 }
 
 TEST_F(HarmlessThings, AreNotThoseOfTheJointItself) {
-  const std::string mesh =
-      "<attached_geometry><Mesh name=\"m\"><mesh_file>femur.ply</mesh_file>"
-      "<scale_factors>1 1</scale_factors></Mesh></attached_geometry>";
-  EXPECT_TRUE(
-      has(proposed({.femur = mesh}), "refused: " + (folder_.path() / "model.osim").string() +
-                                         ": line 2: mesh 'm': scale_factors: three numbers are needed"))
-      << proposed({.femur = mesh});
-  EXPECT_TRUE(has(proposed({.bodies = "<Body name=\"tibia_r\"/>"}), "body 'tibia_r' is given twice"));
-  EXPECT_TRUE(has(proposed({.joints = "<PinJoint name=\"knee_r\"/>"}), "joint 'knee_r' is given twice"));
-  EXPECT_TRUE(has(
-      proposed({.joints = "<WeldJoint name=\"w\"><socket_parent_frame>/bodyset/nowhere</socket_parent_frame>"
-                          "<socket_child_frame>/bodyset/tibia_r</socket_child_frame></WeldJoint>"}),
-      "there is no body or frame '/bodyset/nowhere'"));
-  EXPECT_TRUE(
-      has(proposed({.more = "<ComponentSet><objects><SomethingFrame name=\"c\"/></objects></ComponentSet>",
-                    .parent_frame = "c"}),
-          "frame 'c': a frame of type SomethingFrame is not read"));
+  const std::pair<SmallKnee, std::string> cases[] = {
+      {{.femur = geometry("femur.ply", "<scale_factors>1 1</scale_factors>")},
+       "refused: " + (folder_ / "model.osim").string() +
+           ": line 2: mesh 'm': scale_factors: three numbers are needed"},
+      {{.bodies = "<Body name=\"tibia_r\"/>"}, "body 'tibia_r' is given twice"},
+      {{.joints = "<PinJoint name=\"knee_r\"/>"}, "joint 'knee_r' is given twice"},
+      {{.joints = "<WeldJoint name=\"w\"><socket_parent_frame>/bodyset/nowhere</socket_parent_frame>"
+                  "<socket_child_frame>/bodyset/tibia_r</socket_child_frame></WeldJoint>"},
+       "there is no body or frame '/bodyset/nowhere'"},
+      {{.more = "<ComponentSet><objects><SomethingFrame name=\"c\"/></objects></ComponentSet>",
+        .parent_frame = "c"},
+       "frame 'c': a frame of type SomethingFrame is not read"}};
+  for (const auto& [knee, says] : cases) test::expect_says(proposed(knee), says);
 }
 
 TEST_F(HarmlessThings, AreMeshesOfOtherBodiesAndNotThoseThatAreProposed) {
@@ -179,13 +165,11 @@ TEST_F(HarmlessThings, AreMeshesOfOtherBodiesAndNotThoseThatAreProposed) {
       {"text.stl", "this is no mesh"},
   };
   for (const auto& [name, bytes] : bad) {
-    write(name, bytes);
-    const std::string mesh = fmt::format(
-        "<attached_geometry><Mesh name=\"m\"><mesh_file>{}</mesh_file></Mesh></attached_geometry>", name);
-    const std::string said = proposed({.femur = mesh});
-    EXPECT_EQ(said.find("unreadable: "), 0u) << said;
-    EXPECT_TRUE(has(said, name)) << said;
-    EXPECT_EQ(proposed({.bodies = "<Body name=\"other\">" + mesh + "</Body>"}), "");
+    folder_.file(name, bytes);
+    const std::string said = proposed({.femur = geometry(name)});
+    test::expect_begins(said, "unreadable: ");
+    test::expect_says(said, name);
+    EXPECT_EQ(proposed({.bodies = other_body(geometry(name))}), "");
   }
 }
 
@@ -193,12 +177,7 @@ TEST_F(HarmlessThings, AreLettersOfFolders) {
   fs::create_directories(folder_.path() / "geometry/Sub");
   for (const char* name : {"geometry/a.ply", "geometry/Sub/B.ply"})
     fs::copy_file(folder_.path() / "femur.ply", folder_.path() / name);
-  const auto notes = [&](std::string_view file) {
-    return proposed(
-        {.femur = fmt::format(
-             "<attached_geometry><Mesh name=\"m\"><mesh_file>{}</mesh_file></Mesh></attached_geometry>",
-             file)});
-  };
+  const auto notes = [&](std::string_view file) { return proposed({.femur = geometry(file)}); };
   EXPECT_EQ(notes("a.ply"), "") << "geometry is the folder Geometry";
   EXPECT_EQ(notes("A.PLY"), "other_case: mesh 'A.PLY' was found as 'a.ply'\n");
   EXPECT_EQ(notes("sub\\b.ply"), "other_case: mesh 'sub\\b.ply' was found as 'B.ply'\n");
@@ -258,13 +237,10 @@ TEST_F(HarmlessThings, AreStationsThatMakeNoFrame) {
       {stations("+w", "+y"), "ab_axis: '+w' is no axis"},
       {stations("+x", "+y", "a b b o"), "its points a, b and c lie on a line"},
       {stations("+x", "+y", "a b n o"), "there is no point '/bodyset/femur_r/n'"}};
-  const std::string mesh =
-      "<attached_geometry><Mesh name=\"m\"><mesh_file>femur.ply</mesh_file></Mesh></attached_geometry>";
   for (const auto& [components, why] : cases) {
-    const std::string said =
-        proposed({.femur = mesh + components, .parent_frame = "/bodyset/femur_r/at_knee"});
-    EXPECT_TRUE(has(said, why)) << said;
-    EXPECT_FALSE(has(proposed({.femur = mesh + components}), "refused")) << "nothing hangs on it";
+    const std::string femur = geometry("femur.ply") + components;
+    test::expect_says(proposed({.femur = femur, .parent_frame = "/bodyset/femur_r/at_knee"}), why);
+    EXPECT_FALSE(has(proposed({.femur = femur}), "refused")) << "nothing hangs on it";
   }
 }
 

@@ -11,6 +11,7 @@
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "io/motion/model_poses.hpp"
+#include "io/motion/motion_text.hpp"
 #include "io/result/model_result.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -183,16 +184,8 @@ TEST(LargeModel, OfConstraintsThatNameOneCoordinateTwiceComputesEachOnce) {
   const test::TemporaryFolder folder;
   const auto path =
       folder.file("large.osim", model(bodies(chain), joints, couplers + "</objects></ConstraintSet>"));
-  io::MotionTable table;
-  table.path = "walk.sto";
-  table.columns = {"time", fmt::format("qj{}", chain)};
-  table.rows = 1000;
-  table.in_degrees = false;
-  table.values = {std::vector<double>(table.rows), std::vector<double>(table.rows, 1)};
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    table.values[0][row] = static_cast<double>(row);
-    table.line_of_row.push_back(row + 1);
-  }
+  const io::MotionTable table =
+      test::motion_table({fmt::format("qj{}", chain)}, {std::vector<double>(1000, 1)});
   const io::RecordedPoses poses = io::model_poses(table, {.model = path, .joint = "knee_r"});
   ASSERT_EQ(poses.X_FM.size(), table.rows);
   // Each step halves it: the angle is 2^-20.

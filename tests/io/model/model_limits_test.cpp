@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
+#include "io/motion/motion_text.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -16,8 +16,6 @@
 
 namespace condyle {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The axes of a hip whose coordinates are columns of the joint file, and of one that the model poses.
 constexpr std::string_view by_columns = "0 0 1,1 0 0,0 1 0", by_model = "1 0 0,0 0 1,0 1 0";
@@ -37,9 +35,8 @@ class ModelLimits : public ::testing::Test {
       joint += fmt::format(
           R"(<TransformAxis name="rotation{}"><coordinates>{}</coordinates><axis>{}</axis></TransformAxis>)",
           i + 1, names[i], axes.substr(6 * i, 5));
-    const fs::path path = folder_.path() / "model.osim";
-    std::ofstream(path, std::ios::binary) << fmt::format(
-        R"(<?xml version="1.0"?>
+    return io::read_model(folder_.file("model.osim", fmt::format(
+                                                         R"(<?xml version="1.0"?>
 <OpenSimDocument Version="40500"><Model name="limits"><BodySet><objects>
 <Body name="pelvis"><attached_geometry><Mesh name="p"><mesh_file>pelvis.ply</mesh_file></Mesh></attached_geometry></Body>
 <Body name="femur_r"><attached_geometry><Mesh name="f"><mesh_file>femur.ply</mesh_file></Mesh></attached_geometry></Body>
@@ -47,21 +44,12 @@ class ModelLimits : public ::testing::Test {
 <socket_child_frame>/bodyset/femur_r</socket_child_frame><coordinates><Coordinate name="flex">{}</Coordinate>
 <Coordinate name="add"/><Coordinate name="rot">{}</Coordinate></coordinates>
 <SpatialTransform>{}</SpatialTransform></CustomJoint></objects></JointSet>{}</Model></OpenSimDocument>)",
-        flexion, rotation, joint, more);
-    return io::read_model(path);
+                                                         flexion, rotation, joint, more)));
   }
 
   static io::MotionTable table(std::vector<double> flexion, std::vector<double> rotation) {
-    io::MotionTable table;
-    table.path = "walk.mot";
-    table.columns = {"time", "flex", "add", "rot"};
-    table.rows = flexion.size();
-    for (std::size_t row = 0; row < table.rows; ++row) table.line_of_row.push_back(row + 9);
-    std::vector<double> time(table.rows), zero(table.rows);
-    for (std::size_t row = 0; row < table.rows; ++row) time[row] = static_cast<double>(row);
-    table.values = {time, std::move(flexion), zero, std::move(rotation)};
-    table.in_degrees = false;
-    return table;
+    const std::vector<double> zero(flexion.size());
+    return test::motion_table({"flex", "add", "rot"}, {std::move(flexion), zero, std::move(rotation)});
   }
 
   static std::vector<std::string> notes_of(const io::Model& model, const io::MotionTable& table) {
@@ -119,8 +107,7 @@ TEST_F(ModelLimits, HoldForWhatStandsInForAColumn) {
     const auto notes = notes_of(
         model(axes, "", "<default_value>2</default_value><range>-1 1</range><locked>true</locked>"), without);
     ASSERT_EQ(notes.size(), 1u) << "locked there, and so it is";
-    EXPECT_NE(notes[0].find("'hip_r/rot', -57.2958 to 57.2958 degrees, in 2 of 2 frames"), std::string::npos)
-        << notes[0];
+    test::expect_says(notes[0], "'hip_r/rot', -57.2958 to 57.2958 degrees, in 2 of 2 frames");
   }
 }
 
@@ -149,19 +136,16 @@ TEST_F(ModelLimits, OfForcesAreShownAndPlaceNothing) {
   EXPECT_EQ(held.ignored.at("CoordinateLinearStopForce"), 1u);
   const std::string toml =
       io::propose_joint(held, {.joint = "hip_r", .joint_file = folder_.path() / "hip.toml"}).proposal.toml;
-  EXPECT_NE(toml.find("# flex: held from -30 to 57.2958 deg by a force\n"), std::string::npos) << toml;
+  test::expect_says(toml, "# flex: held from -30 to 57.2958 deg by a force\n");
 }
 
 TEST_F(ModelLimits, StandInTheJointFileAndAreReadBack) {
   const io::ModelJointProposal proposal = io::propose_joint(
       model(by_columns, "<range>-1 1.5</range>", "<default_value>0.1</default_value><locked>true</locked>"),
       {.joint = "hip_r", .joint_file = folder_.path() / "hip.toml"});
-  EXPECT_NE(proposal.proposal.toml.find("range = [-57.29577951308232, 85.94366926962348] }"),
-            std::string::npos)
-      << proposal.proposal.toml;
-  std::ofstream(folder_.path() / "hip.toml") << proposal.proposal.toml;
+  test::expect_says(proposal.proposal.toml, "range = [-57.29577951308232, 85.94366926962348] }");
   const auto columns = std::get<std::vector<io::ColumnOfCoordinate>>(
-      *io::read_joint_file(folder_.path() / "hip.toml").recorded_motion);
+      *io::read_joint_file(folder_.file("hip.toml", proposal.proposal.toml)).recorded_motion);
   ASSERT_EQ(columns.size(), 3u);
   EXPECT_EQ(columns[0].range, (std::array{-57.29577951308232, 85.94366926962348}));
   EXPECT_FALSE(columns[0].is_locked || columns[1].range);
@@ -199,12 +183,8 @@ class ModelLayers : public ModelLimits {
   void SetUp() override {
     ModelLimits::SetUp();
     // Concentric balls: 4 mm from one to the other everywhere.
-    io::write_mesh(folder_.path() / "femur.ply", scaled(test::sphere({0, 0, 0}, 24, 3)));
-    io::write_mesh(folder_.path() / "inner.ply", scaled(test::sphere({0, 0, 0}, 20, 3)));
-  }
-  static TriMesh scaled(TriMesh mesh) {
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] / 1000);
-    return mesh;
+    io::write_mesh(folder_ / "femur.ply", test::scaled_by(test::sphere({0, 0, 0}, 24, 3), 0.001));
+    io::write_mesh(folder_ / "inner.ply", test::scaled_by(test::sphere({0, 0, 0}, 20, 3), 0.001));
   }
   io::Model with(std::string_view least, std::string_view greatest, std::string_view reach = "0.02") const {
     return model(by_columns, "", "", fmt::format(fmt::runtime(cartilages), least, greatest, reach));
@@ -217,12 +197,8 @@ class ModelLayers : public ModelLimits {
                                 io::elastic_options(entry, surfaces, loaded));
   }
   static std::string refusal(const io::Model& model) {
-    try {
-      io::propose_joint(model, {.joint = "hip_r", .joint_file = {}});
-    } catch (const FileError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::complaint_of<FileError>(
+        [&] { io::propose_joint(model, {.joint = "hip_r", .joint_file = {}}); });
   }
 };
 
@@ -238,11 +214,10 @@ TEST_F(ModelLayers, BeyondTheirBoundsAreNoted) {
 }
 
 TEST_F(ModelLayers, OfNumbersThatNoLayerHasAreRefused) {
-  EXPECT_NE(refusal(with("0.005", "0.003"))
-                .find("min_thickness 0.005 of 'b' must be above 0 and at most max_thickness, 0.003"),
-            std::string::npos);
-  EXPECT_NE(refusal(with("0", "0.003")).find("min_thickness 0 of 'b'"), std::string::npos);
-  EXPECT_NE(refusal(with("0.001", "0.003", "0")).find("max_proximity 0 is not above 0"), std::string::npos);
+  test::expect_says(refusal(with("0.005", "0.003")),
+                    "min_thickness 0.005 of 'b' must be above 0 and at most max_thickness, 0.003");
+  test::expect_says(refusal(with("0", "0.003")), "min_thickness 0 of 'b'");
+  test::expect_says(refusal(with("0.001", "0.003", "0")), "max_proximity 0 is not above 0");
 }
 
 }  // namespace

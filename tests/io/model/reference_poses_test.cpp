@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
 #include "io/model/pose_of_rows.hpp"
+#include "support/complaint.hpp"
 #include "support/shared_data.hpp"
 
 // Poses of every joint of the shared models as an evaluator of another hand has them, which OpenSim's own positions of
@@ -113,7 +114,7 @@ TEST(RefusedModels, EndInOneLine) {
       throw FileError(why);
     } catch (const FileError& error) {
       const std::string line = error.what();
-      EXPECT_EQ(line.find('\n'), line.npos);
+      test::expect_silent(line, "\n");
       EXPECT_EQ(line.find(entry.path().string() + ": "), 0u) << line;
       EXPECT_LT(line.size(), 400u);
       ::testing::Test::RecordProperty(entry.path().stem().string(), line);

@@ -5,12 +5,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/provenance.hpp"
+#include "io/motion/motion_text.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -124,8 +125,7 @@ class TurnedFrames : public ::testing::Test {
   }
 
   io::Model read(const TurnedModel& model) const {
-    std::ofstream(folder_.path() / "model.osim", std::ios::binary) << model.text();
-    return io::read_model(folder_.path() / "model.osim");
+    return io::read_model(folder_.file("model.osim", model.text()));
   }
 
   struct Answer {
@@ -140,18 +140,11 @@ class TurnedFrames : public ::testing::Test {
     const io::Model model = read(of);
     Answer out{.loaded = io::read_joint(
                    model, {.joint = of.name, .joint_file = {}, .anatomy = anatomy, .side = side})};
-    io::MotionTable table;
-    table.path = "walk.mot";
-    table.columns = {"time"};
-    table.values = {{0}};
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      table.columns.push_back(of.coordinates[i]);
-      table.values.push_back({q[i]});
-    }
-    table.rows = 1;
-    table.line_of_row = {9};
-    table.in_degrees = false;
-    const Pose X_FM = *io::motion_of(out.loaded, table).X_FM[0];
+    std::vector<std::vector<double>> values;
+    for (const double value : q) values.push_back({value});
+    const std::vector<std::string> columns(of.coordinates.begin(),
+                                           of.coordinates.begin() + static_cast<std::ptrdiff_t>(q.size()));
+    const Pose X_FM = *io::motion_of(out.loaded, test::motion_table(columns, values)).X_FM[0];
     const JointAngles angles = angles_at(out.loaded.joint.coordinates(), X_FM);
     out.angles = {angles.flexion.radians(), angles.adduction.radians(), angles.internal_rotation.radians()};
     out.by_columns =
@@ -256,8 +249,7 @@ TEST_F(TurnedFrames, OfPinsTurnTowardsTheBodysRight) {
         expect_angles(made.angles, {(anatomy == Anatomy::knee ? -sense : sense) * 0.7, 0, 0});
         EXPECT_EQ(notes(model, anatomy), std::vector<std::string>{});
       }
-      EXPECT_NE(proposal(model).find(sense > 0 ? "# q grows with extension" : "# q grows with flexion"),
-                std::string::npos);
+      test::expect_says(proposal(model), sense > 0 ? "# q grows with extension" : "# q grows with flexion");
     }
 }
 
@@ -309,7 +301,7 @@ TEST_F(TurnedFrames, OfHingesAcrossTheDirectionToTheRightAreNoted) {
       for (const bool is_left : {false, true})
         expect_angles(answer(with(sense * axis, is_left), {0.4}).angles,
                       {(is_left ? -sense : sense) * 0.4, 0, 0});
-  EXPECT_NE(notes(with(Vec3::UnitY(), false)).front().find("nearest to Y, up"), std::string::npos);
+  test::expect_says(notes(with(Vec3::UnitY(), false)).front(), "nearest to Y, up");
   // Just beside the bound of 45 degrees.
   EXPECT_EQ(notes(with({std::sin(0.785), 0, std::cos(0.785)}, false)), std::vector<std::string>{});
   EXPECT_EQ(notes(with({std::sin(0.786), 0, std::cos(0.786)}, false)).size(), 1u);
@@ -361,7 +353,7 @@ TEST_F(TurnedFrames, LaidAlongABonesFunctionKeepTheirOwnAxes) {
                 "turned_frame: the joint's frame is turned in body 'femur_r', its X along -Z, to the left, "
                 "its Y along Y, "
                 "up and its Z along X, forwards: angles are named by the body's axes; q grows with flexion"});
-  EXPECT_NE(proposal(model).find("# q grows with flexion\nmodel = "), std::string::npos);
+  test::expect_says(proposal(model), "# q grows with flexion\nmodel = ");
 }
 
 TEST_F(TurnedFrames, FarFromEveryAxisGiveWayToTheBodys) {
@@ -395,9 +387,7 @@ TEST_F(TurnedFrames, InABodyThatLiesTurnedItselfStandUpright) {
   ankle.R_PF = R_GP.transpose() * about(Vec3::UnitY(), 40 * pi / 180);
   expect_angles(answer(ankle, {0.4}).angles, {-0.4, 0, 0});
   ASSERT_EQ(notes(model).size(), 1u);
-  EXPECT_NE(notes(model)[0].find("body 'femur_r' is 90 degrees from the ground's in the standing model"),
-            std::string::npos)
-      << notes(model)[0];
+  test::expect_says(notes(model)[0], "body 'femur_r' is 90 degrees from the ground's in the standing model");
   model.axes[3] = {"q", Vec3::UnitX(), 0.002, 0};
   expect_angles(answer(model, {0.4}).angles, {-0.4, 0, 0});
 }

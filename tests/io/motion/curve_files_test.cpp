@@ -13,6 +13,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "io/file/whole_file.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle {
@@ -70,43 +71,40 @@ TEST(CurveFiles, ACsvFileIsReadBackBitForBit) {
   curves.names = {"depth, greatest", "the \"other\" one"};
   io::write_curves_csv(folder / "a.csv", curves, "# version: 1\n# command: condyle, of course\n");
   expect_read_back(io::read_motion_table(folder / "a.csv"), curves);
-  EXPECT_TRUE(
-      io::read_whole_file(folder / "a.csv")
-          .starts_with("# version: 1\n# command: condyle, of course\ncycle_percent,\"depth, greatest\","));
+  test::expect_begins(io::read_whole_file(folder / "a.csv"),
+                      "# version: 1\n# command: condyle, of course\ncycle_percent,\"depth, greatest\",");
 }
 
 TEST(CurveFiles, WhatCouldNotBeReadBackIsNotWritten) {
   const TemporaryFolder folder;
   const auto complaint = [&](const io::Curves& curves, const char* file) {
-    try {
+    const std::string said = test::complaint_about<FileError>(folder / file, [&](const auto& path) {
       if (std::string_view(file) == "a.sto")
-        io::write_sto(folder / file, "title", curves, io::AngleUnit::degrees);
+        io::write_sto(path, "title", curves, io::AngleUnit::degrees);
       else
-        io::write_curves_csv(folder / file, curves);
-    } catch (const FileError& error) {
-      EXPECT_EQ(test::count_entries(folder.path()), 0u);
-      return std::string(error.what()).substr((folder / file).string().size());
-    }
+        io::write_curves_csv(path, curves);
+    });
+    EXPECT_EQ(test::count_entries(folder.path()), said == "accepted" ? 1u : 0u);
     std::filesystem::remove(folder / file);
-    return std::string("written");
+    return said;
   };
   for (const char* file : {"a.sto", "a.csv"}) {
-    EXPECT_EQ(complaint(some_curves(), file), "written");
+    EXPECT_EQ(complaint(some_curves(), file), "accepted");
+    const std::string refused = "cannot be written: column ",
+                      blank = "'b c' has a name that cannot be read back";
     io::Curves curves = some_curves();
-    curves.names[1] = curves.names[0] = "a";
-    EXPECT_EQ(complaint(curves, file), ": cannot be written: column 'a' is there twice");
-    curves.names[1] = "time";
-    EXPECT_EQ(complaint(curves, file), ": cannot be written: column 'time' is there twice");
-    curves.names[1] = "";
-    EXPECT_EQ(complaint(curves, file), ": cannot be written: column '' has a name that cannot be read back");
+    curves.names[0] = "a";
+    for (const auto& [name, says] : {std::pair("a", "'a' is there twice"),
+                                     {"time", "'time' is there twice"},
+                                     {"", "'' has a name that cannot be read back"}}) {
+      curves.names[1] = name;
+      EXPECT_EQ(complaint(curves, file), refused + says);
+    }
     curves.names[1] = "b c";
-    EXPECT_EQ(complaint(curves, file),
-              std::string_view(file) == "a.csv"
-                  ? "written"
-                  : ": cannot be written: column 'b c' has a name that cannot be read back");
+    EXPECT_EQ(complaint(curves, file), std::string_view(file) == "a.csv" ? "accepted" : refused + blank);
     curves.names[1] = "b";
     curves.values[1][2] = -std::numeric_limits<double>::infinity();
-    EXPECT_EQ(complaint(curves, file), ": cannot be written: column 'b' has a number that is not finite");
+    EXPECT_EQ(complaint(curves, file), refused + "'b' has a number that is not finite");
   }
 }
 

@@ -146,8 +146,7 @@ TEST(JamContact, TranslationsAreInMetres) {
   const io::JointMotion motion;
   const io::ContactSurfaces surfaces{knee.joint.fixed, knee.joint.mobile};
   const io::MotionQuestion question{.joint = knee, .motion = motion, .surfaces = surfaces, .contact = {}};
-  Pose X_FM = Pose::Identity();
-  X_FM.translation() = Vec3(1, -2, 4);
+  Pose X_FM(Eigen::Translation3d(1, -2, 4));
   MotionAnswer answer;
   answer.frames = {motion::FrameContact{.X_FM = X_FM}};
   const auto coordinates = io::jam_coordinates(question, answer);

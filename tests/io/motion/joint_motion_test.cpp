@@ -6,6 +6,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/motion/some_pose.hpp"
+#include "support/joint_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -49,13 +50,18 @@ class RecordedBodies {
 
   /// The joint with this in its tables, and the motion it has.
   std::string joint(const std::string& kind, const std::string& units, const std::string& of_fixed,
-                    const std::string& of_mobile, const std::string& frame, const std::string& more) const {
-    return fmt::format(
-        "condyle = 1\nname = \"knee\"\nkind = \"{0}\"\njoint = \"knee\"\nside = \"right\"\nunits = "
-        "\"{1}\"\n[fixed]\nmesh = \"fixed.ply\"\n{2}\n[mobile]\nmesh = "
-        "\"mobile.ply\"\n{3}\n[frame]\n{4}\n{5}\n"
-        "[recorded_motion]\nfixed_body = \"F\"\nmobile_body = \"M\"\nunits = \"{1}\"\n",
-        kind, units, of_fixed, of_mobile, frame, more);
+                    const std::string& of_mobile, const std::string& more,
+                    std::string_view centre = "[0, 0, 0]", std::string_view axes = test::plain_axes) const {
+    return test::joint_text(
+        {.kind = kind,
+         .units = units,
+         .keys = kind == "free" ? "joint = \"knee\"\n" : "",
+         .fixed = "mesh = \"fixed.ply\"\n" + of_fixed,
+         .mobile = "mesh = \"mobile.ply\"\n" + of_mobile,
+         .centre = centre,
+         .axes = axes,
+         .more = more + "\n[recorded_motion]\nfixed_body = \"F\"\nmobile_body = \"M\"\nunits = \"" + units +
+                 "\"\n"});
   }
   void expect_bodies_together(const std::string& joint_file) const {
     const io::LoadedJoint loaded = io::read_joint(folder_.file("knee.toml", joint_file));
@@ -74,27 +80,27 @@ class RecordedBodies {
   test::TemporaryFolder folder_;
 };
 
-const std::string standard = "centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
-
 TEST(JointMotion, RecordedPosesMoveTheMeshesAlikeInAnyJointFrame) {
   const RecordedBodies bodies(1);
-  const std::string elsewhere = "centre = [5, -6, 70]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
-  const std::string turned = "centre = [5, -6, 70]\nanterior = [0, -0.6, 0.8]\nsuperior = [0, 0.8, 0.6]";
+  const auto origin = "[0, 0, 0]", elsewhere = "[5, -6, 70]",
+             turned = "anterior = [0, -0.6, 0.8]\nsuperior = [0, 0.8, 0.6]\n";
   const std::string posed_body = "pose = [0.6, -0.8, 0, 5,  0.8, 0.6, 0, -6,  0, 0, 1, 7,  0, 0, 0, 1]";
   const std::string in_reference = "[reference_pose]\nflexion = 33\nadduction = -4\nx = 3\nz = -8";
-  for (const std::string& frame : {standard, elsewhere, turned})
+  for (const auto& [centre, axes] : {std::pair{origin, test::plain_axes.data()},
+                                     {elsewhere, test::plain_axes.data()},
+                                     {elsewhere, turned}})
     for (const std::string& of_fixed : {std::string(), posed_body})
       for (const std::string& of_mobile : {std::string(), posed_body})
         for (const std::string& more : {std::string(), in_reference})
-          bodies.expect_bodies_together(bodies.joint("free", "mm", of_fixed, of_mobile, frame, more));
+          bodies.expect_bodies_together(bodies.joint("free", "mm", of_fixed, of_mobile, more, centre, axes));
 }
 
 TEST(JointMotion, RecordedPosesInMetresAreThoseInMillimetres) {
   const RecordedBodies bodies(1000);
   bodies.expect_bodies_together(bodies.joint(
       "free", "m", "", "pose = [0.6, -0.8, 0, 0.005,  0.8, 0.6, 0, -0.006,  0, 0, 1, 0.007,  0, 0, 0, 1]",
-      "centre = [0.005, -0.006, 0.07]\nanterior = [0, -0.6, 0.8]\nsuperior = [0, 0.8, 0.6]",
-      "[reference_pose]\nflexion = 33\nx = 0.003"));
+      "[reference_pose]\nflexion = 33\nx = 0.003", "[0.005, -0.006, 0.07]",
+      "anterior = [0, -0.6, 0.8]\nsuperior = [0, 0.8, 0.6]\n"));
 }
 
 /// Along the joint's axes a bent knee's y is along the tibia: at 90 degrees of flexion the femur's X.
@@ -105,11 +111,11 @@ TEST(JointMotion, TranslationsAreRecordedAlongTheAxesThatTheJointNames) {
       folder.file("bent.csv", "time,flexion_deg,x_mm,y_mm,z_mm\n0,90,1,10,2\n1,0,1,10,2\n"));
   for (const bool along_joint : {false, true}) {
     const io::LoadedJoint knee = io::read_joint(folder.file(
-        "knee.toml",
-        "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
-        "\"mm\"\ntranslation_frame = \"" +
-            std::string(along_joint ? "joint_axes" : "fixed") +
-            "\"\n[fixed]\nmesh = \"body.ply\"\n[mobile]\nmesh = \"body.ply\"\n[frame]\n" + standard));
+        "knee.toml", test::joint_text({.kind = "free",
+                                       .keys = "joint = \"knee\"\ntranslation_frame = \"" +
+                                               std::string(along_joint ? "joint_axes" : "fixed") + "\"\n",
+                                       .fixed = "mesh = \"body.ply\"",
+                                       .mobile = "mesh = \"body.ply\""})));
     const io::JointMotion motion = io::motion_of(knee, table);
     const Vec3 bent = along_joint ? Vec3(10, -1, 2) : Vec3(1, 10, 2);
     EXPECT_LE((motion.X_FM[0]->translation() - bent).norm(), 1e-14) << along_joint;
@@ -123,30 +129,21 @@ TEST(JointMotion, ABallDoesNotTranslate) {
   Pose about_centre = test::some_pose(0.6, {1, -2, 3}, Vec3::Zero());
   about_centre.translation() = centre - about_centre.linear() * centre;
   const RecordedBodies bodies(1, about_centre);
-  const auto ball = [&](const std::string& frame) {
-    std::string file = bodies.joint("ball", "mm", "", "", frame, "");
-    file.replace(file.find("joint = \"knee\"\n"), 15, "");
-    return file;
-  };
-  const auto axes = "\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
-  bodies.expect_bodies_together(ball("centre = [5, -6, 70]" + std::string(axes)));
-  const io::LoadedJoint off = io::read_joint(bodies.folder().file("off.toml", ball(standard)));
-  try {
-    io::motion_of(off, io::read_motion_table(bodies.folder() / "motion.csv"));
-    ADD_FAILURE() << "accepted";
-  } catch (const FileError& error) {
-    EXPECT_EQ(error.what(),
-              fmt::format("{}: line 2: the mobile body's centre is {:.3f} mm from the fixed "
-                          "body's, and a ball does not translate",
-                          (bodies.folder() / "motion.csv").string(), about_centre.translation().norm()));
-  }
+  bodies.expect_bodies_together(bodies.joint("ball", "mm", "", "", "", "[5, -6, 70]"));
+  const io::LoadedJoint off =
+      io::read_joint(bodies.folder().file("off.toml", bodies.joint("ball", "mm", "", "", "")));
+  EXPECT_EQ(test::complaint_of<FileError>(
+                [&] { io::motion_of(off, io::read_motion_table(bodies.folder() / "motion.csv")); }),
+            fmt::format("{}: line 2: the mobile body's centre is {:.3f} mm from the fixed "
+                        "body's, and a ball does not translate",
+                        (bodies.folder() / "motion.csv").string(), about_centre.translation().norm()));
 }
 
 /// What condyle motion writes: its coordinates are the joint's own, whatever columns the recording had.
 TEST(JointMotion, CurvesOfAMotionAreReadAgain) {
   const RecordedBodies bodies(1);
   const auto read = [&](const std::string& mapping, const char* table) {
-    std::string file = bodies.joint("free", "mm", "", "", standard, "");
+    std::string file = bodies.joint("free", "mm", "", "", "");
     file = file.substr(0, file.find("[recorded_motion]")) + mapping;
     const io::LoadedJoint joint = io::read_joint(bodies.folder().file("knee.toml", file));
     const io::JointMotion motion =
@@ -179,13 +176,9 @@ TEST(JointMotion, CurvesOfAMotionAreReadAgain) {
 
 TEST(JointMotion, NotesTimesThatLookLikeMilliseconds) {
   const test::TemporaryFolder folder;
-  io::write_mesh(folder / "a.ply", test::box({1, 1, 1}, {2, 2, 2}));
-  io::write_mesh(folder / "b.ply", test::box({-2, -2, -2}, {-1, -1, -1}));
-  const io::LoadedJoint joint = io::read_joint(folder.file(
-      "hip.toml",
-      "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = "
-      "\"a.ply\"\n[mobile]\nmesh = "
-      "\"b.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n"));
+  io::write_mesh(folder / "fixed.ply", test::box({1, 1, 1}, {2, 2, 2}));
+  io::write_mesh(folder / "mobile.ply", test::box({-2, -2, -2}, {-1, -1, -1}));
+  const io::LoadedJoint joint = io::read_joint(folder.file("hip.toml", test::joint_text({})));
   const auto codes = [&](const char* table) {
     std::vector<motion::ContactNoteCode> found;
     for (const auto& note : io::motion_of(joint, io::read_motion_table(folder.file("m.csv", table))).notes)

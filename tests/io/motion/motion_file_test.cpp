@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/motion/motion_text.hpp"
+#include "support/complaint.hpp"
 #include "support/shared_data.hpp"
 
 namespace condyle {
@@ -189,7 +190,7 @@ TEST(MotionFile, ReadsRealFiles) {
   const io::MotionTable contact = io::read_motion_table(knee / "passive_flexion_contact_reference.sto");
   EXPECT_EQ(contact.columns.size(), 35u);
   ASSERT_EQ(contact.processing.size(), 1u);
-  EXPECT_NE(contact.processing[0].find("inDegrees=no is followed"), std::string::npos);
+  test::expect_says(contact.processing[0], "inDegrees=no is followed");
 }
 
 }  // namespace

@@ -9,16 +9,27 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"
+#include "support/complaint.hpp"
 #include "support/temporary_folder.hpp"
 
 /// Recorded motions as text, and what reading them gives.
 
 namespace condyle::test {
 
-inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, text.npos) << from;
-  return at == text.npos ? text : text.replace(at, from.size(), to);
+/// A table with a time of 0, 1, 2 and so on before these columns.
+inline io::MotionTable motion_table(std::vector<std::string> columns, std::vector<std::vector<double>> values,
+                                    bool in_degrees = false) {
+  io::MotionTable table;
+  table.path = "walk.mot";
+  table.rows = values.empty() ? 1 : values[0].size();
+  table.in_degrees = in_degrees;
+  columns.insert(columns.begin(), "time"), table.columns = std::move(columns);
+  values.emplace(values.begin()), table.values = std::move(values);
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    table.values[0].push_back(static_cast<double>(row));
+    table.line_of_row.push_back(row + 9);
+  }
+  return table;
 }
 
 inline io::MotionTable read_table(std::string_view name, std::string_view text) {
@@ -31,32 +42,16 @@ inline io::MotionTable read_table(std::string_view name, std::string_view text) 
 template <class Question>
 std::string refusal(std::string_view name, std::string_view text, const Question& question) {
   const TemporaryFolder folder;
-  const auto path = folder.file(name, text);
-  try {
-    question(path);
-  } catch (const FileError& error) {
-    const std::string message = error.what(), start = path.string() + ": ";
-    EXPECT_EQ(message.find('\n'), message.npos) << message;
-    EXPECT_TRUE(message.starts_with(start)) << message;
-    return message.substr(std::min(message.size(), start.size()));
-  }
-  return "accepted";
+  return complaint_about<FileError>(folder.file(name, text), question);
 }
-
-/// A damaged file, and what reading it complains about behind the file's name.
-struct Damage {
-  std::string text;
-  std::string complaint;
-};
 
 /// Ten kinds of damage at least, each with its one line; the file that is not damaged is accepted.
 inline void expect_complaints(std::string_view name, const std::string& good,
-                              const std::vector<Damage>& damages,
+                              const std::vector<Refusal>& damages,
                               const std::function<void(const std::filesystem::path&)>& question) {
   ASSERT_EQ(refusal(name, good, question), "accepted");
   EXPECT_GE(damages.size(), 10u);
-  for (const Damage& damage : damages)
-    EXPECT_EQ(refusal(name, damage.text, question), damage.complaint) << damage.text;
+  for (const auto& [text, says] : damages) EXPECT_EQ(refusal(name, text, question), says) << text;
 }
 
 }  // namespace condyle::test

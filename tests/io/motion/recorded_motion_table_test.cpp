@@ -5,6 +5,7 @@
 #include <array>
 
 #include "condyle/error.hpp"
+#include "support/complaint.hpp"
 
 namespace condyle {
 namespace {
@@ -22,12 +23,7 @@ io::RecordedMotionMapping mapping_of(std::string_view text) {
 }
 
 std::string refusal(std::string_view keys) {
-  try {
-    mapping_of("[recorded_motion]\n" + std::string(keys));
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::complaint_of<FileError>([&] { mapping_of("[recorded_motion]\n" + std::string(keys)); });
 }
 
 TEST(RecordedMotionTable, GivesColumnsOfCoordinates) {

@@ -9,6 +9,7 @@
 #include "core/predicates.hpp"
 #include "io/motion/motion_text.hpp"
 #include "io/motion/some_pose.hpp"
+#include "support/complaint.hpp"
 #include "support/shared_data.hpp"
 
 namespace condyle {
@@ -68,7 +69,7 @@ TEST(RecordedCoordinates, RadiansUnderAHeaderThatSaysDegreesAreNoted) {
   const auto noted = notes("yes", radians);
   ASSERT_EQ(noted.size(), 1u);
   EXPECT_EQ(noted[0].code, motion::ContactNoteCode::unlikely_angle);
-  EXPECT_NE(noted[0].text.find("inDegrees=yes"), std::string::npos);
+  test::expect_says(noted[0].text, "inDegrees=yes");
   EXPECT_TRUE(notes("no", radians).empty());
   EXPECT_TRUE(notes("yes", "0 -17 3\n0.1 11 6\n0.2 40 1\n").empty());
   EXPECT_TRUE(notes("yes", "0 -0.3 30\n0.1 0.2 60\n0.2 0.7 0\n").empty()) << "one column moves as in degrees";
@@ -189,7 +190,7 @@ TEST(RecordedPoses, WithoutAnyTranslationTheNamesTell) {
     EXPECT_NEAR(poses.X_FM[0]->linear()(0, 0), c, rounding);
     EXPECT_NEAR(poses.X_FM[0]->linear()(1, 0), s, rounding);
     ASSERT_FALSE(poses.processing.empty());
-    EXPECT_NE(poses.processing.back().find("no matrix has a translation"), std::string::npos);
+    test::expect_says(poses.processing.back(), "no matrix has a translation");
   }
 }
 
@@ -257,7 +258,7 @@ TEST(RecordedPoses, AKneeMeasuredByMriIsWhereItsReadmeSays) {
   }
   ASSERT_EQ(poses.processing.size(), 2u);
   EXPECT_EQ(poses.processing[0], "the header promises 48 rows and the file has 60: all of them are read");
-  EXPECT_TRUE(poses.processing[1].starts_with("rotations are orthonormal to ")) << poses.processing[1];
+  test::expect_begins(poses.processing[1], "rotations are orthonormal to ");
 }
 
 TEST(RecordedCoordinates, OfARealWalkAndARealKnee) {

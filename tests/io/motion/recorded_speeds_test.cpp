@@ -7,6 +7,7 @@
 
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "support/joint_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -22,11 +23,14 @@ class RecordedSpeeds : public testing::Test {
     io::write_mesh(folder / "body.ply", test::box({-11, -95, -7}, {13, -20, 9}));
     return io::read_joint(folder.file(
         "knee.toml",
-        "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
-        "\"mm\"\n[fixed]\nmesh = \"body.ply\"\n[mobile]\nmesh = \"body.ply\"\n[frame]\n"
-        "centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n[recorded_motion]\n"
-        "flexion = { column = \"bend\", sign = -1, offset = 4 }\nadduction = \"tilt\"\n"
-        "internal_rotation = \"turn\"\nx = { column = \"tx\", unit = \"m\" }\n"));
+        test::joint_text({.kind = "free",
+                          .keys = "joint = \"knee\"\n",
+                          .fixed = "mesh = \"body.ply\"",
+                          .mobile = "mesh = \"body.ply\"",
+                          .more =
+                              "[recorded_motion]\nflexion = { column = \"bend\", sign = -1, offset = 4 }\n"
+                              "adduction = \"tilt\"\ninternal_rotation = \"turn\"\n"
+                              "x = { column = \"tx\", unit = \"m\" }\n"})));
   }
 
   io::MotionTable table(const std::string& columns, const std::string& rows,
