@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,16 +7,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <random>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "command.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
 
 /// Commands that are ended from outside, or that cannot write: what was there stays, or what was asked for is there, each file
 /// whole.
@@ -25,7 +19,6 @@
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 /// Every file below a folder and what it holds, but for folders that a killed run could not clear away.
@@ -200,7 +193,7 @@ TEST_P(BrokenOff, AtAnyMomentLeavesEachFileOldOrNewAndTheNextRunTheSameBytes) {
     } else if (!finished && WIFEXITED(status)) {
       EXPECT_EQ(WEXITSTATUS(status), 130);
       const std::string said = io::read_whole_file(err());
-      EXPECT_NE(said.find("condyle: "), said.npos) << said;
+      EXPECT_TRUE(says(said, "condyle: "));
       EXPECT_EQ(said.back(), '\n') << said;
     } else if (!finished) {
       // Before the program had begun to listen.
@@ -231,7 +224,7 @@ TEST_P(BrokenOff, WithoutRoomForItsFilesLeavesTheEarlierOnesAndSaysSoInOneLine) 
   ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), 3);
   const std::string said = io::read_whole_file(err());
-  EXPECT_NE(said.find("cannot be written: File too large\n"), said.npos) << said;
+  EXPECT_TRUE(says(said, "cannot be written: File too large\n"));
   EXPECT_EQ(files_in(here() / "result"), old_);
 }
 
@@ -255,7 +248,7 @@ TEST_P(BrokenOff, WithAnInputThatVanishedSaysWhichInOneLine) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3);
   const std::string said = without_notes(io::read_whole_file(err()));
   EXPECT_TRUE(is_one_error_line(said)) << said;
-  EXPECT_NE(said.find("femur.ply"), said.npos) << said;
+  EXPECT_TRUE(says(said, "femur.ply"));
   EXPECT_EQ(files_in(here() / "result"), old_);
 }
 

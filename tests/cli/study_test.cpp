@@ -1,46 +1,36 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <random>
 #include <thread>
 
 #include "command.hpp"
-#include "io/file/whole_file.hpp"
 #include "support/small_cohort.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* tables[] = {"limits.csv",  "hips.csv", "failures.csv",
                                   "columns.csv", "study.h5", "study.json"};
 
-class StudyCommand : public ::testing::Test {
+class StudyCommand : public CommandTest {
  protected:
-  Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
   void expect_same_tables(const std::string& a, const std::string& b) const {
     for (const char* name : tables)
       EXPECT_EQ(io::read_whole_file(here / a / name), io::read_whole_file(here / b / name)) << name;
   }
 
-  const TemporaryFolder folder;
-  const fs::path here = folder / "in";
   const SmallCohort cohort{here, 12};
 };
 
 TEST_F(StudyCommand, AnswersWithFailuresInTheirTable) {
-  const Ran ran = run("study table.csv --out out");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const Ran ran = done("study table.csv --out out");
   EXPECT_EQ(ran.out, "12 answered, 4 failed\n");
   EXPECT_TRUE(ran.err.starts_with("condyle: note: wrote out/limits.csv, ")) << ran.err;
   const Ran again = run("study table.csv --out out --threads 1");
@@ -50,7 +40,7 @@ TEST_F(StudyCommand, AnswersWithFailuresInTheirTable) {
 
 TEST_F(StudyCommand, EndsAtABadJointWithItsExitCodeWhereThatIsAskedFor) {
   expect_refusal(run("study table.csv --out out --strict"), 3, "nothere.toml: no such file", "--strict");
-  std::ofstream(here / "contact.csv") << "id,joint\na,hip1.toml\nb,in_contact.toml\nc,nothere.toml\n";
+  write("contact.csv", "id,joint\na,hip1.toml\nb,in_contact.toml\nc,nothere.toml\n");
   for (const char* threads : {"1", "7"})
     expect_refusal(run(std::string("study contact.csv --out out --strict --threads ") + threads), 6,
                    "in contact in the reference pose", "--strict");
@@ -58,33 +48,28 @@ TEST_F(StudyCommand, EndsAtABadJointWithItsExitCodeWhereThatIsAskedFor) {
 }
 
 TEST_F(StudyCommand, EndsWithTheExitCodeOfTheFirstFailureWhereNoneIsAnswered) {
-  std::ofstream(here / "none.csv") << "id,joint\nb,in_contact.toml\nc,nothere.toml\n";
+  write("none.csv", "id,joint\nb,in_contact.toml\nc,nothere.toml\n");
   for (const char* round : {"computed", "there already"}) {
     const Ran ran = run("study none.csv --out none");
     EXPECT_EQ(ran.exit_code, 6) << round;
     EXPECT_EQ(ran.out, "0 answered, 2 failed\n");
     EXPECT_TRUE(is_one_error_line(without_notes(ran.err))) << ran.err;
-    EXPECT_NE(ran.err.find("condyle: none.csv: none of 2 joints was answered; the first one: "), ran.err.npos)
-        << ran.err;
+    EXPECT_TRUE(says(ran.err, "condyle: none.csv: none of 2 joints was answered; the first one: "));
     EXPECT_TRUE(fs::exists(here / "none/failures.csv"));
   }
   // A shard may hold bad joints only; what is merged is the study.
-  for (const char* shard : {"1/2", "2/2"})
-    EXPECT_EQ(run(std::string("study none.csv --out parted --shard ") + shard).exit_code, 0) << shard;
+  for (const char* shard : {"1/2", "2/2"}) done(std::string("study none.csv --out parted --shard ") + shard);
   EXPECT_EQ(run("merge parted").exit_code, 6);
 }
 
 TEST_F(StudyCommand, OfShardsMergedIsTheWholeStudy) {
-  ASSERT_EQ(run("study table.csv --out whole --band=20 --motion flexion").exit_code, 0);
+  done("study table.csv --out whole --band=20 --motion flexion");
   for (int i = 7; i >= 1; --i) {
     if (i == 3)
       expect_refusal(run("merge out"), 3, "3 of 7 shards are missing or not whole: 1, 2, 3", "merge");
-    ASSERT_EQ(
-        run(fmt::format("study table.csv --out out --band=20 --motion flexion --shard {}/7", i)).exit_code,
-        0);
+    done(fmt::format("study table.csv --out out --band=20 --motion flexion --shard {}/7", i));
   }
-  const Ran merged = run("merge out");
-  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  const Ran merged = done("merge out");
   EXPECT_EQ(merged.out, "12 answered, 4 failed\n");
   for (const char* name : {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"})
     EXPECT_EQ(io::read_whole_file(here / "whole" / name), io::read_whole_file(here / "out" / name)) << name;
@@ -161,7 +146,7 @@ TEST_F(StudyCommand, KilledAtAnyMomentGoesOnWithTheRowsThatAreTheSame) {
                : std::stoul(ran.err.substr(ran.err.find("note: ") + 6));
   };
   const auto began = Clock::now();
-  ASSERT_EQ(run("study table.csv --out whole --band=400").exit_code, 0);
+  done("study table.csv --out whole --band=400");
   const auto whole_run = Clock::now() - began;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 0.5);
@@ -181,13 +166,13 @@ TEST_F(StudyCommand, KilledAtAnyMomentGoesOnWithTheRowsThatAreTheSame) {
   cohort.write_post(1, 50);  // of the row that is answered first
   EXPECT_EQ(earlier(run(command)), kept - 1);
   EXPECT_EQ(earlier(run("study table.csv --out other --band=399")), 0u);
-  ASSERT_EQ(run("study table.csv --out whole --band=400").exit_code, 0);
+  done("study table.csv --out whole --band=400");
   expect_same_tables("whole", "killed");
   EXPECT_FALSE(fs::exists(rows) || fs::exists(here / "other/.condyle-rows"));
 }
 
 TEST_F(StudyCommand, RunTwiceAtATimeWritesWhatOneRunWrites) {
-  ASSERT_EQ(run("study table.csv --out whole --band=20").exit_code, 0);
+  done("study table.csv --out whole --band=20");
   for (int round = 0; round < 3; ++round) {
     std::vector<pid_t> processes;
     for (int i = 0; i < 3; ++i)
@@ -208,28 +193,25 @@ TEST_F(StudyCommand, EndsAtAnInterruptionInTheMiddleOfAMap) {
   ::kill(process, SIGINT);
   EXPECT_EQ(exit_code_of(process), 130);
   const std::string said = io::read_whole_file(folder / "err");
-  EXPECT_NE(said.find("; the same command goes on from here\n"), said.npos) << said;
+  EXPECT_TRUE(says(said, "; the same command goes on from here\n"));
   EXPECT_FALSE(fs::exists(here / "out/limits.csv"));
 }
 
 TEST_F(StudyCommand, MeasuresShapesOfACohort) {
-  ASSERT_EQ(run("sample cohort --n 1 --seed 5 --out drawn").exit_code, 0);
-  ASSERT_EQ(run("study drawn/cohort.csv --out out --motion flexion --measures --band=20").exit_code, 0);
-  const std::string hips = io::read_whole_file(here / "out/hips.csv");
-  EXPECT_NE(hips.find(",measured_alpha_1_30_deg,measured_alpha_1_30_deg_p5,measured_alpha_1_30_deg_p95,"),
-            hips.npos);
-  EXPECT_NE(io::read_whole_file(here / "out/columns.csv").find("hips,measured_head_radius_mm,mm,number,"),
-            hips.npos);
+  done("sample cohort --n 1 --seed 5 --out drawn");
+  done("study drawn/cohort.csv --out out --motion flexion --measures --band=20");
+  const std::string hips = text_of("out/hips.csv");
+  EXPECT_TRUE(says(hips, ",measured_alpha_1_30_deg,measured_alpha_1_30_deg_p5,measured_alpha_1_30_deg_p95,"));
+  EXPECT_TRUE(says(text_of("out/columns.csv"), "hips,measured_head_radius_mm,mm,number,"));
 }
 
 TEST_F(StudyCommand, DrawsACohortThatItThenAnswersFor) {
-  const Ran drawn = run("sample cohort --n 2 --seed 5 --out drawn");
-  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  const Ran drawn = done("sample cohort --n 2 --seed 5 --out drawn");
   EXPECT_EQ(drawn.out, "2 hips, for condyle study drawn/cohort.csv\n");
   EXPECT_EQ(run("study drawn/cohort.csv --out out --motion flexion").out, "2 answered, 0 failed\n");
   run("sample cohort --n 40 --seed 5 --out more");
-  const std::string few = io::read_whole_file(here / "drawn/cohort.csv");
-  EXPECT_TRUE(io::read_whole_file(here / "more/cohort.csv").starts_with(few));
+  const std::string few = text_of("drawn/cohort.csv");
+  EXPECT_TRUE(text_of("more/cohort.csv").starts_with(few));
   expect_refusal(run("sample cohort --n 0 --out none"), 2, "1 to 10000000 hips", "--n 0");
 }
 
