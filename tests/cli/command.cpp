@@ -1,8 +1,11 @@
 #include "command.hpp"
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <sstream>
@@ -27,6 +30,31 @@ Ran run_well(const std::filesystem::path& folder, const std::string& arguments) 
   return ran;
 }
 
+pid_t start_condyle(const std::filesystem::path& folder, const std::string& arguments,
+                    const std::filesystem::path& err, const std::vector<int>& ignored) {
+  std::fflush(nullptr);  // else the child would write it again, or into a file that is full
+  const std::string line = "cd '" + folder.string() + "' && exec '" CONDYLE_COMMAND "' " + arguments +
+                           " >/dev/null 2>'" + err.string() + "'";
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  for (const int signal : ignored) std::signal(signal, SIG_IGN);
+  ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+  ::_exit(99);
+}
+
+int end_of(pid_t process) {
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+bool has_temporary(const std::filesystem::path& folder) {
+  if (!fs::exists(folder)) return false;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().filename().string().starts_with(".condyle-")) return true;
+  return false;
+}
+
 void sample_into(const std::filesystem::path& folder, const std::string& arguments) {
   static std::map<std::string, TemporaryFolder> made;
   const auto [at, is_new] = made.try_emplace(arguments);
@@ -39,11 +67,25 @@ void sample_into(const std::filesystem::path& folder, const std::string& argumen
 }
 
 std::string without_notes(const std::string& text) {
-  std::istringstream lines(text);
   std::string rest;
-  for (std::string line; std::getline(lines, line);)
+  for (const std::string& line : lines_of(text))
     if (!line.starts_with("condyle: note: ")) rest += line + '\n';
   return rest;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    if (!line.starts_with('#')) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::istringstream in(line + ",");
+  std::vector<std::string> fields;
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
 }
 
 bool is_one_error_line(const std::string& text) {

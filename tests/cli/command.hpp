@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/types.h>
 
 #include <filesystem>
 #include <fstream>
@@ -37,6 +38,16 @@ Ran run_condyle(const std::filesystem::path& folder, const std::string& argument
 /// The same of a question that has an answer: anything but exit code 0 fails the test.
 Ran run_well(const std::filesystem::path& folder, const std::string& arguments);
 
+/// Starts `condyle ARGUMENTS` in a folder by itself, with these signals ignored by its parent; its notes and errors go into a file.
+pid_t start_condyle(const std::filesystem::path& folder, const std::string& arguments,
+                    const std::filesystem::path& err, const std::vector<int>& ignored = {});
+
+/// Waits for the end of a process: its exit code, the signal that ended it negated.
+int end_of(pid_t process);
+
+/// Whether something lies in a folder, or below it, that was being written and has no name yet.
+bool has_temporary(const std::filesystem::path& folder);
+
 /// What `condyle sample ARGUMENTS` makes, in this folder; made once per process for all tests that ask for the same.
 void sample_into(const std::filesystem::path& folder, const std::string& arguments);
 
@@ -48,6 +59,10 @@ bool is_one_error_line(const std::string& text);
 
 /// Whether a text has this piece; shows both if that is not what was expected.
 ::testing::AssertionResult says(std::string_view text, std::string_view piece);
+
+/// Lines of a text, comments of a table (#) left out; and what lies between the commas of one.
+std::vector<std::string> lines_of(const std::string& text);
+std::vector<std::string> fields_of(const std::string& line);
 
 /// Whether an answer has a note of this code, among those on the joint or those of this key.
 bool has_note(const Json& answer, std::string_view code, const char* key = "notes");

@@ -46,7 +46,7 @@ TEST_F(Command, InspectAnswersInTextAndJson) {
   ASSERT_EQ(from["meshes"].size(), 2u);
   EXPECT_EQ(from["meshes"][1]["path"], "hip_bone.ply");
   EXPECT_EQ(from["meshes"][1]["bytes"], fs::file_size(here / "hip_bone.ply"));
-  EXPECT_EQ(from["meshes"][1]["sha256"], io::digest_of(io::read_whole_file(here / "hip_bone.ply")).sha256);
+  EXPECT_EQ(from["meshes"][1]["sha256"], io::digest_of(text_of("hip_bone.ply")).sha256);
 }
 
 TEST_F(Command, InspectRepairsOnRequestAndWritesTheResult) {
@@ -233,12 +233,12 @@ TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
 }
 
 TEST_F(Command, InitReplacesNoJointFile) {
-  const std::string edited = io::read_whole_file(here / "right_hip.toml");
+  const std::string edited = text_of("right_hip.toml");
   expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml",
                  "right_hip.toml: is there already, and may have been edited: name another or remove it");
-  EXPECT_EQ(io::read_whole_file(here / "right_hip.toml"), edited);
+  EXPECT_EQ(text_of("right_hip.toml"), edited);
   done("init hip_bone.ply femur.ply -o new.toml");
-  const std::string proposed = io::read_whole_file(here / "new.toml");
+  const std::string proposed = text_of("new.toml");
   EXPECT_EQ(run("init hip_bone.ply femur.ply").out, proposed);
   expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "name another or remove it");
   expect_refused(2, "init hip_bone.ply femur.ply -o new.json",

@@ -143,15 +143,14 @@ TEST_F(Crate, WithoutAFolderOrADayIsRefusedBeforeTheWork) {
     for (const char* command : {"rom hip1.toml --out out", "study table.csv --out out", "merge out",
                                 "hip post1.ply arm.ply --out out"})
       expect_refusal(run(fmt::format("{} --crate {}", command, date)), 2, "is no day", command);
-  expect_refusal(run("rom hip1.toml --crate 2026-01-31"), 2, "--out", "no folder");
-  expect_refusal(run("study table.csv --out out --shard 1/2 --crate 2026-01-31"), 2, "condyle merge",
-                 "a shard");
+  expect_refused(2, "rom hip1.toml --crate 2026-01-31", "--out");
+  expect_refused(2, "study table.csv --out out --shard 1/2 --crate 2026-01-31", "condyle merge");
   EXPECT_FALSE(fs::exists(here / "out"));
 }
 
 TEST_F(Crate, HasOneEntityForFilesOfOneContentAndNamesAsUrisHaveThem) {
   fs::create_directory(here / "a folder");
-  std::ofstream(here / "a folder/50 %.csv") << "x\n";
+  write("a folder/50 %.csv", "x\n");
   const std::string digest(64, 'a');
   const io::CrateRun asked{"2026-01-31",
                            "condyle rom",

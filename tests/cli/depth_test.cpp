@@ -5,7 +5,6 @@
 #include <cstring>
 #include <numbers>
 #include <regex>
-#include <sstream>
 
 #include "command.hpp"
 #include "condyle/contact.hpp"
@@ -52,13 +51,13 @@ TEST_F(SampleJointCommand, IsWrittenWithTheCountsOfItsScenario) {
 TEST_F(SampleJointCommand, AMatrixMayHaveCommentsAboveIt) {
   const double c = std::cos(0.5), s = std::sin(0.5);
   const std::string rows = fmt::format("{} {} 0 0\n{} {} 0 0\n0 0 1 0\n0 0 0 1\n", c, -s, s, c);
-  std::ofstream(folder / "plain.txt") << rows;
+  write("plain.txt", rows);
   std::ofstream(folder / "titled.txt") << "\xEF\xBB\xBF# X_FM\r\n  # 4 x 4 numbers\r\n" << rows << "# end\n";
   const Json plain = answer("depth sample/hip.toml --matrix plain.txt"),
              titled = answer("depth sample/hip.toml --matrix titled.txt");
   EXPECT_NEAR(titled["pose_deg"]["flexion"], 0.5 * 180 / std::numbers::pi, 1e-12);
   EXPECT_EQ(titled["pose_deg"], plain["pose_deg"]);
-  std::ofstream(folder / "none.txt") << "# 1 0 0 0\n";
+  write("none.txt", "# 1 0 0 0\n");
   expect_refused(3, "depth sample/hip.toml --matrix none.txt", "pose: a matrix begins with a number");
 }
 
@@ -132,26 +131,24 @@ TEST_F(SampleJointCommand, DepthLeadsWithTheReliableOne) {
 
 TEST_F(SampleJointCommand, VerticesAreWrittenAsATableOnRequest) {
   const Json json = CommandTest::answer(std::string("depth sample/hip.toml --csv --out deep ") + deep);
-  std::istringstream table(io::read_whole_file(folder / "deep/mobile.csv"));
-  std::string line;
-  while (std::getline(table, line) && line.starts_with('#')) continue;
+  const std::vector<std::string> lines = lines_of(text_of("deep/mobile.csv"));
   EXPECT_TRUE(
-      line.starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_way,nearest_distance_mm,"))
-      << line;
+      lines[0].starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_way,nearest_distance_mm,"))
+      << lines[0];
   const TriMesh posed_femur = io::read_mesh(folder / "deep/mobile.vtp").mesh;
-  std::size_t rows = 0;
+  ASSERT_EQ(lines.size(), 1 + posed_femur.vertices.size());
   double deepest = 0;
-  for (; std::getline(table, line); ++rows) {
+  for (std::size_t v = 0; v + 1 < lines.size(); ++v) {
+    const std::string& line = lines[v + 1];
     double x, y, z, depth;
     std::size_t vertex;
     ASSERT_EQ(std::sscanf(line.c_str(), "%zu,%lf,%lf,%lf,%lf,", &vertex, &x, &y, &z, &depth), 5) << line;
-    EXPECT_EQ(vertex, rows);
-    EXPECT_EQ(Vec3(x, y, z), posed_femur.vertices[rows]);
+    EXPECT_EQ(vertex, v);
+    EXPECT_EQ(Vec3(x, y, z), posed_femur.vertices[v]);
     deepest = std::max(deepest, depth);
     EXPECT_FALSE(says(line, "nan"));
     EXPECT_FALSE(says(line, ",-0,"));
   }
-  EXPECT_EQ(rows, posed_femur.vertices.size());
   EXPECT_GT(deepest, 0);
   EXPECT_TRUE(fs::exists(folder / "deep/fixed.csv"));
   done(std::string("depth sample/hip.toml --out deep ") + deep);
@@ -195,16 +192,10 @@ TEST_F(SampleJointCommand, TheTangentialMethodGivesAnglesAndArcs) {
 
 TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
   const Json json = CommandTest::answer(std::string("depth sample/hip.toml --out deep ") + deep);
-  std::ifstream written(folder / "deep/depth.json");
-  EXPECT_EQ(Json::parse(written), json);
-
-  std::ifstream csv(folder / "deep/pairs.csv");
-  std::string line;
-  while (std::getline(csv, line) && line.starts_with('#')) continue;
-  EXPECT_EQ(line, "fixed_triangle,mobile_triangle");
-  std::size_t rows = 0;
-  while (std::getline(csv, line)) ++rows;
-  EXPECT_EQ(rows, json["triangle_pairs"]);
+  EXPECT_EQ(json_of("deep/depth.json"), json);
+  const std::vector<std::string> pairs = lines_of(text_of("deep/pairs.csv"));
+  EXPECT_EQ(pairs[0], "fixed_triangle,mobile_triangle");
+  EXPECT_EQ(pairs.size() - 1, json["triangle_pairs"]);
 
   const TriMesh femur = io::read_mesh(folder / "sample/femur.ply").mesh;
   EXPECT_EQ(io::read_mesh(folder / "deep/fixed.vtp").mesh,
@@ -212,8 +203,7 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
   EXPECT_EQ(io::read_mesh(folder / "deep/mobile.vtp").mesh,
             posed(pose_at({.side = Side::right}, deep_angles), femur));
   for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"}) {
-    std::ifstream file(folder / name, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    const std::string text = text_of(name);
     for (const char* array :
          {"depth_mm", "depth_is_reliable", "depth_way", "nearest_distance_mm", "radial_depth_mm",
           "radial_gap_mm", "ray_to_normal_deg", "inside", "triangle", "winding", "in_contact"}) {
@@ -240,16 +230,16 @@ TEST_F(SampleJointCommand, EveryFileSaysWhereItComesFrom) {
   const Json from = Json::parse(ran.out)["provenance"];
   EXPECT_EQ(from["command"], Json({"depth", "sample/hip.toml", "--pose", "flexion=130 internal_rotation=20",
                                    "--frame", "joint"}));
-  const std::string femur = io::read_whole_file(folder / "sample/femur.ply");
+  const std::string femur = text_of("sample/femur.ply");
   EXPECT_EQ(from["mobile_mesh"]["path"], "sample/femur.ply");
   EXPECT_EQ(from["mobile_mesh"]["bytes"], femur.size());
   EXPECT_EQ(from["mobile_mesh"]["sha256"], io::digest_of(femur).sha256);
   EXPECT_EQ(from["fixed_mesh"]["joint_from_source"],
             Json({{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}));
   const std::string sha = from["fixed_mesh"]["sha256"];
-  EXPECT_TRUE(says(io::read_whole_file(folder / "deep/pairs.csv"), sha));
+  EXPECT_TRUE(says(text_of("deep/pairs.csv"), sha));
   for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"})
-    EXPECT_TRUE(says(io::read_whole_file(folder / name), "Name=\"fixed_mesh\"")) << name;
+    EXPECT_TRUE(says(text_of(name), "Name=\"fixed_mesh\"")) << name;
   EXPECT_TRUE(says(ran.err, "wrote deep/fixed.vtp, deep/mobile.vtp, deep/pairs.csv, deep/depth.json"));
 
   // Neither the folder nor the number of threads is part of it: runs compare.
@@ -274,7 +264,7 @@ TEST_F(SampleJointCommand, InTheSourceFrameMeshesLieOnTheirFiles) {
   ASSERT_EQ(fixed.triangles, file.triangles);
   for (std::size_t v = 0; v < file.vertices.size(); ++v)
     EXPECT_LT((fixed.vertices[v] - file.vertices[v]).norm(), 1e-12) << v;
-  EXPECT_FALSE(says(io::read_whole_file(folder / "deep/fixed.vtp"), "appended"));
+  EXPECT_FALSE(says(text_of("deep/fixed.vtp"), "appended"));
 }
 
 TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
@@ -305,7 +295,7 @@ TEST_F(SampleJointCommand, WhatLooksWrongIsNotedByEveryCommandAndAnErrorWhenStri
   EXPECT_EQ(run("frame sample/hip.toml --strict").err, "");
   EXPECT_EQ(answer("depth sample/hip.toml --strict")["notes"], Json::array());
   edit_joint("side = \"right\"", "side = \"left\"");
-  std::ofstream(folder / "flexion.csv") << "time_s,flexion_deg\n0,0\n1,10\n";
+  write("flexion.csv", "time_s,flexion_deg\n0,0\n1,10\n");
   for (const char* command :
        {"frame sample/hip.toml", "depth sample/hip.toml", "rom sample/hip.toml --motion flexion",
         "load sample/hip.toml --e 12 --nu 0.42 --thickness 1.5",
@@ -339,7 +329,7 @@ TEST_F(SampleJointCommand, WhatLooksWrongIsNotedByEveryCommandAndAnErrorWhenStri
 TEST_F(SampleJointCommand, AStudyNotesInALineEachWhatLooksWrongAndEndsThereWhenStrict) {
   done("sample hip --out other");
   edit_joint("side = \"right\"", "side = \"left\"");
-  std::ofstream(folder / "table.csv") << "id,joint\ngood,other/hip.toml\nwrong,sample/hip.toml\n";
+  write("table.csv", "id,joint\ngood,other/hip.toml\nwrong,sample/hip.toml\n");
   const std::string study = "study table.csv --motion flexion --out out";
   for (const char* shard : {"", " --shard 2/2"})
     expect_refusal(run(study + " --strict" + shard), 4,
@@ -419,13 +409,8 @@ TEST_F(SampleJointCommand, AMissingMeshEndsWithThree) {
 
 TEST_F(SampleJointCommand, TheSameParametersGiveTheSameBytes) {
   done("sample hip --out again --threads 1");
-  for (const char* name : {"femur.ply", "hip_bone.ply", "hip.toml"}) {
-    const auto bytes = [&](const char* in) {
-      std::ifstream file(folder / in / name, std::ios::binary);
-      return std::string((std::istreambuf_iterator<char>(file)), {});
-    };
-    EXPECT_EQ(bytes("sample"), bytes("again")) << name;
-  }
+  for (const std::string name : {"femur.ply", "hip_bone.ply", "hip.toml"})
+    EXPECT_EQ(text_of("sample/" + name), text_of("again/" + name)) << name;
 }
 
 TEST_F(SampleJointCommand, ALeftHipIsTheMirroredRightOne) {

@@ -86,7 +86,7 @@ TEST_F(Files, ThatWereReadAreNeverWrittenOver) {
         << arguments;
     EXPECT_EQ(all_files(), before) << arguments;
   }
-  expect_refusal(run("init post.ply arm.ply -o joint.toml"), 3, "joint.toml: is there already", "init");
+  expect_refused(3, "init post.ply arm.ply -o joint.toml", "joint.toml: is there already");
   EXPECT_EQ(all_files(), before);
   // Beside them there is room.
   done("study hips.csv --out out");
@@ -98,10 +98,10 @@ TEST_F(Files, OfAStudyAreNotWrittenOverByItsMerge) {
   for (const char* shard : {"1/2", "2/2"}) done(std::string("study table.csv --out out --shard ") + shard);
   fs::copy_file(here / "table.csv", here / "out/hips.csv");
   const auto before = all_files();
-  expect_refusal(run("merge out"), 3, "condyle: out/hips.csv: is the table of this study", "merge");
+  expect_refused(3, "merge out", "condyle: out/hips.csv: is the table of this study");
   fs::remove(here / "out/hips.csv");
   fs::create_hard_link(here / "out/shards/1_of_2/hips.csv", here / "out/hips.csv");
-  expect_refusal(run("merge out"), 3, "condyle: out/hips.csv: is read for this answer", "merge");
+  expect_refused(3, "merge out", "condyle: out/hips.csv: is read for this answer");
   fs::remove(here / "out/hips.csv");
   done("merge out");
 }
@@ -124,8 +124,8 @@ TEST_F(Files, ThatAreFifosAreWrittenIntoOrRefused) {
     EXPECT_GT(got.size(), 1000u) << command;
     EXPECT_TRUE(fs::is_fifo(pipe)) << command;
   }
-  expect_refusal(run("rom joint.toml --out out"), 3,
-                 "condyle: out/limits.csv: is no regular file and is not replaced", "rom");
+  expect_refused(3, "rom joint.toml --out out",
+                 "condyle: out/limits.csv: is no regular file and is not replaced");
   EXPECT_TRUE(fs::is_fifo(limits));
   EXPECT_EQ(count_entries(here / "out"), 1u);
 }
@@ -168,8 +168,7 @@ TEST_F(Files, WithWholeNumbersBeyondTwoToThe53rdAreRefused) {
         with_centre(x), 3,
         "condyle: big.toml: line 11: frame.centre: is a whole number beyond 2^53 that no double holds", x);
   write("seed.toml", good + "[uncertainty]\ncentre = 9007199254740993\n");
-  expect_refusal(run("frame seed.toml"), 3, "seed.toml: line 15: uncertainty.centre: is a whole number",
-                 "seed");
+  expect_refused(3, "frame seed.toml", "seed.toml: line 15: uncertainty.centre: is a whole number");
 }
 
 TEST_F(Files, NestedDeepAreRefusedWithTheirLine) {
@@ -190,7 +189,7 @@ TEST_F(Files, NestedDeepAreRefusedWithTheirLine) {
   write("text.toml", joint_text({.more = "# " + repeated("[", 99) + "\n[reference_pose]\nflexion = 0\n"}));
   done("frame text.toml");
   write("unknown.toml", good + "a" + repeated(".a", 15) + " = \"" + repeated("[.\\\"{", 40) + "\"\n");
-  expect_refusal(run("frame unknown.toml"), 3, "unknown key", "16 levels");
+  expect_refused(3, "frame unknown.toml", "unknown key");
   // A study goes on without that joint.
   write("deep.toml", good + "a" + repeated(".a", 14999) + " = 1\n");
   write("two.csv", "id,joint\na,joint.toml\nb,deep.toml\n");
@@ -200,11 +199,11 @@ TEST_F(Files, NestedDeepAreRefusedWithTheirLine) {
   fs::create_directory(here / "out/shards/1_of_1");
   for (const char* name : {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"})
     fs::copy_file(here / "out" / name, here / "out/shards/1_of_1" / name);
-  std::string record = io::read_whole_file(here / "out/study.json");
+  std::string record = text_of("out/study.json");
   record.insert(record.find("\"options\": {") + 12,
                 "\"x\": " + repeated("[", 100000) + repeated("]", 100000) + ",");
   write("out/shards/1_of_1/study.json", record);
-  expect_refusal(run("merge out"), 3, "out: 1 of 1 shards is missing or not whole: 1", "merge");
+  expect_refused(3, "merge out", "out: 1 of 1 shards is missing or not whole: 1");
 }
 
 /// C0, C1 as UTF-8 and as bare bytes, and what turns the direction of writing.
@@ -231,8 +230,7 @@ TEST_F(Files, WithControlCharactersInTheirNamesSayNothingToATerminal) {
   // In a joint file no text has them; a table's ids come back in notes.
   write("esc.toml", joint_text({.more = "[[motion]]\nname = \"a\\u001b[31m\\nb\"\nvary = \"flexion\"\n"
                                         "range = [0, 90]\n"}));
-  expect_refusal(run("frame esc.toml"), 3,
-                 "esc.toml: line 15: motion[0].name: must have no control character", "esc.toml");
+  expect_refused(3, "frame esc.toml", "esc.toml: line 15: motion[0].name: must have no control character");
   write("flip.toml", joint_text({}));
   write("ids.csv", "id,joint\na" + std::string("\x1b[31m\xc2\x9b") + ",flip.toml\nb,nothere\x1b.toml\n");
   expect_plain(all_of("study ids.csv --out out"));
@@ -240,11 +238,10 @@ TEST_F(Files, WithControlCharactersInTheirNamesSayNothingToATerminal) {
 
 TEST_F(Files, InLatin1AreRefusedWithTheirLine) {
   write("hips.csv", "id,joint,town\na,joint.toml,Ulm\nb,joint.toml,K\xf6ln\n");
-  expect_refusal(run("study hips.csv --out out"), 3, "condyle: hips.csv: line 3: is not UTF-8 (Latin-1?)",
-                 "study");
+  expect_refused(3, "study hips.csv --out out", "condyle: hips.csv: line 3: is not UTF-8 (Latin-1?)");
   write("walk.csv", "time,flexion_deg,sp\xe4t\n0,0,1\n1,20,1\n");
-  expect_refusal(run("motion joint.toml --motion walk.csv"), 3,
-                 "condyle: walk.csv: line 1: column 'sp?t' is not UTF-8 (Latin-1?)", "motion");
+  expect_refused(3, "motion joint.toml --motion walk.csv",
+                 "condyle: walk.csv: line 1: column 'sp?t' is not UTF-8 (Latin-1?)");
   write("hips.csv", "id,joint,town\na,joint.toml,Ulm\nb,joint.toml,K\xc3\xb6ln\n");
   EXPECT_EQ(run("study hips.csv --out out").out, "2 answered, 0 failed\n");
 }
@@ -259,42 +256,18 @@ TEST_F(Files, ThatAreRefusedAreSoBeforeAnyNote) {
   EXPECT_TRUE(ran.err.starts_with("condyle: open.ply: ")) << ran.err;
 }
 
-/// `condyle ARGUMENTS` by the shell, in the background, with these signals ignored by its parent.
 class Signalled : public Files {
  protected:
-  pid_t start(const std::vector<std::string>& arguments, const std::vector<int>& ignored) const {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    for (const int signal : ignored) std::signal(signal, SIG_IGN);
-    std::vector<std::string> words = {CONDYLE_COMMAND};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    if (::chdir(here.c_str()) != 0 || std::freopen("/dev/null", "w", stdout) == nullptr ||
-        std::freopen("err.txt", "w", stderr) == nullptr)
-      ::_exit(99);
-    ::execv(argv[0], argv.data());
-    ::_exit(99);
+  pid_t start(const std::string& arguments, const std::vector<int>& ignored = {}) const {
+    return start_condyle(here, arguments, here / "err.txt", ignored);
   }
   static bool is_running(pid_t child) { return ::waitpid(child, nullptr, WNOHANG) == 0; }
-  static int status_of(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return status;
-  }
   bool wait_for(const fs::path& path) const {
     for (int i = 0; i < 3000 && !fs::exists(path); ++i) std::this_thread::sleep_for(10ms);
     return fs::exists(path);
   }
-  bool has_temporary(const fs::path& in) const {
-    for (const auto& entry : fs::recursive_directory_iterator(in))
-      if (entry.path().filename().string().starts_with(".condyle-")) return true;
-    return false;
-  }
   /// More hips than anybody waits for; its folder shows when it has begun to listen.
-  const std::vector<std::string> long_cohort = {"sample", "cohort", "--n",       "100000", "--meshes",
-                                                "--out",  "cohort", "--threads", "1"};
+  const std::string long_cohort = "sample cohort --n 100000 --meshes --out cohort --threads 1";
 };
 
 TEST_F(Signalled, ByWhatTheParentIgnoresGoOn) {
@@ -306,20 +279,18 @@ TEST_F(Signalled, ByWhatTheParentIgnoresGoOn) {
   }
   EXPECT_TRUE(is_running(child));
   ::kill(child, SIGTERM);
-  const int status = status_of(child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << io::read_whole_file(here / "err.txt");
+  EXPECT_EQ(end_of(child), 130) << io::read_whole_file(here / "err.txt");
 }
 
 TEST_F(Signalled, LeaveNoTemporaryFolder) {
   for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
-    const pid_t child = start(long_cohort, {});
+    const pid_t child = start(long_cohort);
     ASSERT_TRUE(wait_for(here / "cohort/hips"));
     std::this_thread::sleep_for(30ms);
     ::kill(child, signal);  // noted, while a hip is made
     std::this_thread::sleep_for(1ms);
     ::kill(child, signal);  // ends it
-    const int status = status_of(child);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << signal;
+    EXPECT_EQ(end_of(child), 130) << signal;
     EXPECT_FALSE(has_temporary(here)) << signal;
     fs::remove_all(here / "cohort");
   }
@@ -330,14 +301,13 @@ TEST_F(Signalled, WhileTheyWriteLeaveWhatWasThere) {
   const fs::path pipe = here / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
-    const pid_t child = start({"report", "joint.toml", "--out", "pipe"}, {});
+    const pid_t child = start("report joint.toml --out pipe");
     const int reader = ::open(pipe.c_str(), O_RDONLY);
     char byte;
     ASSERT_EQ(::read(reader, &byte, 1), 1);  // the rest of the page fills the pipe
     ::kill(child, signal);
-    const int status = status_of(child);
+    EXPECT_EQ(end_of(child), 130) << signal;
     ::close(reader);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << signal;
     EXPECT_TRUE(is_one_error_line(io::read_whole_file(here / "err.txt")));
     EXPECT_TRUE(fs::is_fifo(pipe));
   }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <sstream>
 
 #include "command.hpp"
 #include "support/report_block.hpp"
@@ -125,7 +124,7 @@ TEST_F(Follow, AReportHasTheSameLimitsAndSaysThatTheyAreBounded) {
        {"--follow record.csv", "--follow-load --force 300 900 0 --along 1 0 0 0 1 0"}) {
     SCOPED_TRACE(follow);
     done("report joint.toml --out page.html " + follow);
-    Json page = report_block(io::read_whole_file(folder / "page.html")).json;
+    Json page = report_block(text_of("page.html")).json;
     const Json rom = answer("rom joint.toml " + follow);
     EXPECT_EQ(page["rom"]["exact"], false);
     EXPECT_EQ(page["rom"]["motions"], rom["motions"]);
@@ -143,29 +142,14 @@ TEST_F(Follow, AReportHasTheSameLimitsAndSaysThatTheyAreBounded) {
     EXPECT_EQ(run(std::string("report joint.toml --out p.html --follow record.csv ") + option).exit_code, 2)
         << option;
   EXPECT_TRUE(says(run("report joint.toml --out p.html --follow-load").err, "needs --force"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "p.html"));
+  EXPECT_FALSE(fs::exists(folder / "p.html"));
 }
 
-/// Rows of a table of results, its comments and names left out.
-std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("#")) continue;
-    std::vector<std::string> fields;
-    line += ",";
-    std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-    rows.push_back(fields);
-  }
-  return rows;
-}
-
-std::string field(const std::vector<std::vector<std::string>>& rows, std::size_t row,
-                  const std::string& name) {
-  const auto at = std::find(rows.at(0).begin(), rows.at(0).end(), name);
-  EXPECT_NE(at, rows[0].end()) << name;
-  return at == rows[0].end() ? "" : rows.at(row).at(static_cast<std::size_t>(at - rows[0].begin()));
+std::string field(const std::vector<std::string>& lines, std::size_t row, const std::string& name) {
+  const std::vector<std::string> names = fields_of(lines.at(0));
+  const auto at = std::find(names.begin(), names.end(), name);
+  EXPECT_NE(at, names.end()) << name;
+  return at == names.end() ? "" : fields_of(lines.at(row)).at(static_cast<std::size_t>(at - names.begin()));
 }
 
 TEST_F(Follow, AStudyHasTheSameLimits) {
@@ -175,8 +159,8 @@ TEST_F(Follow, AStudyHasTheSameLimits) {
   write("back.csv", "time,flexion_deg\n0,0\n1,20\n2,10\n3,30\n");
   done("study joints.csv --out study");
   const Json limit = answer("rom joint.toml --follow record.csv")["motions"][0];
-  const auto limits = rows_of(folder / "study/limits.csv"), hips = rows_of(folder / "study/hips.csv"),
-             failures = rows_of(folder / "study/failures.csv");
+  const auto limits = lines_of(text_of("study/limits.csv")), hips = lines_of(text_of("study/hips.csv")),
+             failures = lines_of(text_of("study/failures.csv"));
   ASSERT_EQ(limits.size(), 2u);
   EXPECT_EQ(std::stod(field(limits, 1, "limit_deg")), limit["limit_deg"].get<double>());
   EXPECT_EQ(std::stod(field(limits, 1, "translation_x_mm")), limit["translation_mm"][0].get<double>());
@@ -197,9 +181,9 @@ TEST_F(Follow, AStudyFollowsALoad) {
   const std::string force = " --motion flexion --follow-load --force 300 900 0";
   done("study joints.csv --out study" + force);
   const Json limit = answer("rom joint.toml" + force)["motions"][0];
-  const auto limits = rows_of(folder / "study/limits.csv");
+  const auto limits = lines_of(text_of("study/limits.csv"));
   EXPECT_EQ(std::stod(field(limits, 1, "limit_deg")), limit["limit_deg"].get<double>());
-  EXPECT_EQ(field(rows_of(folder / "study/hips.csv"), 1, "exact"), "0");
+  EXPECT_EQ(field(lines_of(text_of("study/hips.csv")), 1, "exact"), "0");
   const Ran planned = run("study joints.csv --out planned --resect flexion=90" + force);
   EXPECT_EQ(planned.exit_code, 3);
   EXPECT_TRUE(says(planned.err, "is a free joint, and a study plans none"));

@@ -45,7 +45,7 @@ TEST_F(ImplantCommand, WritesAJointThatHasTheClosedFormAndTurnsItsParts) {
   done("implant hip.toml --out thr");
   for (const char* name : {"implant.json", "hip.toml", "fixed_bone.ply", "mobile_bone.ply", "liner.ply",
                            "head.ply", "neck.ply", "stem.ply"})
-    EXPECT_TRUE(std::filesystem::exists(folder / "thr" / name)) << name;
+    EXPECT_TRUE(fs::exists(folder / "thr" / name)) << name;
   for (const char* set : {"", " --set \"cup.inclination=42 stem.version=10\""}) {
     const Json rom = answer(std::string("rom thr/hip.toml") + set);
     std::size_t on_liner = 0;
@@ -88,8 +88,10 @@ TEST_F(ImplantCommand, KeepsTheMotionsOfTheJointFile) {
 TEST_F(ImplantCommand, ABandMovesTheSurfacesOfBonesAndNoneOfTheImplant) {
   for (const double voxel : {0.0, 1.2}) {
     if (voxel > 0)
-      std::ofstream(folder / "hip.toml", std::ios::app) << fmt::format(
-          "\n[fixed.image]\nvoxel_i = [{0}, 0, 0]\nvoxel_j = [0, {0}, 0]\nvoxel_k = [0, 0, {0}]\n", voxel);
+      append("hip.toml",
+             fmt::format(
+                 "\n[fixed.image]\nvoxel_i = [{0}, 0, 0]\nvoxel_j = [0, {0}, 0]\nvoxel_k = [0, 0, {0}]\n",
+                 voxel));
     done(fmt::format("implant hip.toml --out thr_{}", voxel > 0));
     const std::string file = fmt::format("thr_{}/hip.toml", voxel > 0);
     EXPECT_EQ(io::read_joint_file(folder / file).fixed.image.has_value(), voxel > 0);
@@ -121,7 +123,7 @@ TEST_F(ImplantCommand, RefusesInOneLineAndWritesNothing) {
         {"thr/hip.toml", 2, "has an implant already"},
         {"missing.toml", 3, "missing.toml"}})
     expect_refusal(run(std::string("implant ") + arguments + " --out none"), code, says, arguments);
-  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+  EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST_F(KneeNotes, StandInEveryAnswer) {
 
 TEST_F(KneeNotes, StandInReportsAndStudies) {
   done("report left.toml --follow record.csv --out page.html");
-  const Json page = report_block(io::read_whole_file(folder / "page.html")).json;
+  const Json page = report_block(text_of("page.html")).json;
   EXPECT_TRUE(has_note(page["rom"], "wrong_side")) << page["rom"]["notes"];
   write_joint("one.toml", "left", "[1, 0, 0]", "ball");
   write_joint("other.toml", "right", "[1, 0, 0]", "ball");

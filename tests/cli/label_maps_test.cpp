@@ -161,11 +161,12 @@ TEST_F(LabelMaps, OfAWholePelvisGiveTheHalfBesideTheFemur) {
 }
 
 TEST_F(LabelMaps, AreRowsOfAStudy) {
-  std::ofstream(here / "table.csv") << "id,labels,fixed_label,mobile_label,task\n"
-                                       "named,labels.nii.gz,hip_right,femur_right,total\n"
-                                       "numbers,labels.nii.gz,78,76,\n"
-                                       "none,labels.nii.gz,77,76,\n"
-                                       "half,labels.nii.gz,78,,\n";
+  write("table.csv",
+        "id,labels,fixed_label,mobile_label,task\n"
+        "named,labels.nii.gz,hip_right,femur_right,total\n"
+        "numbers,labels.nii.gz,78,76,\n"
+        "none,labels.nii.gz,77,76,\n"
+        "half,labels.nii.gz,78,,\n");
   const Ran study = done("study table.csv --motion flexion --out study");
   done("init labels.nii.gz --fixed 78 --mobile 76 -o of_study/hip.toml");
   const Json alone = answer("rom of_study/hip.toml --motion flexion");

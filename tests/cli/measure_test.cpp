@@ -1,5 +1,4 @@
 #include <cmath>
-#include <sstream>
 
 #include "command.hpp"
 #include "condyle/hip_measures.hpp"
@@ -115,17 +114,11 @@ TEST_F(MeasureCommand, GivesTheLibrarysBands) {
 
 TEST_F(MeasureCommand, WritesTables) {
   done("measure hip.toml --out out");
-  const auto rows = [&](const char* name) {
-    std::istringstream text(io::read_whole_file(folder / name));
-    std::size_t count = 0;
-    for (std::string line; std::getline(text, line);) count += !line.starts_with('#');
-    return count - 1;
-  };
+  const auto rows = [&](const char* name) { return lines_of(text_of(name)).size() - 1; };
   EXPECT_EQ(rows("out/measures.csv"), measure::measure_definitions().size());
   EXPECT_GT(rows("out/neck.csv"), 30u);
   EXPECT_GT(rows("out/rim.csv"), 30u);
-  EXPECT_EQ(Json::parse(io::read_whole_file(folder / "out/measures.json"))["measures"],
-            measured("")["measures"]);
+  EXPECT_EQ(json_of("out/measures.json")["measures"], measured("")["measures"]);
 }
 
 TEST_F(MeasureCommand, RefusesWhatIsNoHip) {

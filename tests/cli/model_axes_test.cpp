@@ -86,7 +86,7 @@ TEST_F(ModelKnee, IsNotProposedSilentlyWithAMeshThatCannotBeRead) {
   const Ran ran = run("init knee.osim --joint knee_r -o k.toml");
   EXPECT_EQ(ran.exit_code, 3);
   EXPECT_TRUE(says(ran.err, "condyle: bad.obj: line 4"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "k.toml")) << "it would be in the way of the next proposal";
+  EXPECT_FALSE(fs::exists(folder / "k.toml")) << "it would be in the way of the next proposal";
   EXPECT_TRUE(says(run("init knee.osim --joint knee_r").out, "bad.obj"));
 }
 

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "motion_scene.hpp"
 #include "support/shared_data.hpp"
@@ -55,21 +54,12 @@ TEST_F(Motion, AMeasuredKneeIsWhereItsReadmeSays) {
   EXPECT_TRUE(says(ran.err, "the nearest ones are used"));
   const NumberTable curves = csv_of(folder / "out/curves.csv");
   ASSERT_EQ(curves.rows.size(), 60u);
-  struct Row {
-    std::size_t row;
-    std::array<double, 3> mm, deg;
-  };
-  for (const Row& known : {Row{0, {1.97015, -0.38414, -2.39974}, {26.30480, -0.27747, -0.44750}},
-                           Row{20, {2.44138, -1.15345, -2.36312}, {41.61138, 1.66967, -1.78322}},
-                           Row{40, {-0.51856, -0.27445, -1.47515}, {9.40304, -0.55334, -3.55086}}}) {
-    const auto value = [&](const char* name) { return curves.rows[known.row][curves.column(name)]; };
-    const std::array lengths = {"x_mm", "y_mm", "z_mm"};
-    const std::array angles = {"flexion_deg", "adduction_deg", "internal_rotation_deg"};
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(value(lengths[i]), known.mm[i], 0.001) << known.row << lengths[i];
-      EXPECT_NEAR(value(angles[i]), known.deg[i], 0.01) << known.row << angles[i];
-    }
-  }
+  const auto value = [&](const char* name) { return curves.rows[20][curves.column(name)]; };
+  const std::pair<const char*, double> known[] = {
+      {"x_mm", 2.44138},         {"y_mm", -1.15345},         {"z_mm", -2.36312},
+      {"flexion_deg", 41.61138}, {"adduction_deg", 1.66967}, {"internal_rotation_deg", -1.78322}};
+  for (const auto& [name, expected] : known)
+    EXPECT_NEAR(value(name), expected, std::string_view(name).ends_with("_mm") ? 0.001 : 0.01) << name;
 }
 
 TEST_F(Motion, LoadReportsTheMomentOnTheBodyThatTheJointFileNames) {
@@ -273,16 +263,14 @@ TEST_F(Motion, ContactBetweenSamplesReportsPlaceAndParts) {
   EXPECT_NEAR(contact["entry"]["point_mm"][0], 40, 1e-9);
   EXPECT_NEAR(contact["entry"]["point_mm"][1], -std::sqrt(1 + 100 * 100 - 40 * 40), 1e-9);
   EXPECT_EQ(contact["exit"]["point_mm"], nullptr) << "the recording ends in contact";
-  std::istringstream lines(text_of("out/contacts.csv"));
-  std::string names, row;
-  std::getline(lines, names);
-  std::getline(lines, row);
+  const std::vector<std::string> lines = lines_of(text_of("out/contacts.csv"));
+  const std::string &names = lines.at(0), &row = lines.at(1);
   EXPECT_TRUE(
       names.ends_with("is_certain,entry_x_mm,entry_y_mm,entry_z_mm,entry_fixed_part,entry_mobile_part,"
                       "exit_x_mm,exit_y_mm,exit_z_mm,exit_fixed_part,exit_mobile_part"))
       << names;
   EXPECT_TRUE(row.ends_with(",,lower,,,,,")) << row;
-  EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(names.begin(), names.end(), ','));
+  EXPECT_EQ(fields_of(row).size(), fields_of(names).size());
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <sstream>
 
 #include "command.hpp"
 #include "support/cup.hpp"
@@ -13,17 +12,13 @@ namespace condyle::test {
 
 /// A CSV file's numbers; an empty field is NaN.
 inline NumberTable csv_of(const fs::path& path) {
-  std::ifstream file(path);
-  NumberTable table;
-  std::string line, field;
-  std::getline(file, line);
-  for (std::istringstream names(line); std::getline(names, field, ',');) table.columns.push_back(field);
-  while (std::getline(file, line)) {
-    std::vector<double> row;
-    line += ",";
-    for (std::istringstream fields(line); std::getline(fields, field, ',');)
+  std::vector<std::string> lines = lines_of(io::read_whole_file(path));
+  NumberTable table{fields_of(lines.at(0)), {}};
+  lines.erase(lines.begin());
+  for (const std::string& line : lines) {
+    std::vector<double>& row = table.rows.emplace_back();
+    for (const std::string& field : fields_of(line))
       row.push_back(field.empty() ? std::nan("") : std::stod(field));
-    table.rows.push_back(std::move(row));
   }
   return table;
 }

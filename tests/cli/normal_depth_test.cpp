@@ -70,13 +70,12 @@ TEST_F(NormalMethod, AnswersForAnOpenSheet) {
 }
 
 TEST_F(NormalMethod, IsNamedWhereAnOpenMeshIsRefused) {
-  expect_refusal(run("depth joint.toml --pose y=19"), 4,
-                 "(--method normal or --pairs-only accept such meshes)", "");
+  expect_refused(4, "depth joint.toml --pose y=19", "(--method normal or --pairs-only accept such meshes)");
   // Where triangles are wound against each other, normals mean nothing; where all of a closed mesh are, neither.
   TriMesh twisted = sheet();
   std::swap(twisted.triangles[100][0], twisted.triangles[100][1]);
   io::write_mesh(folder / "sheet.ply", twisted);
-  expect_refusal(run("depth joint.toml --pose y=19"), 4, "(--pairs-only accepts such meshes)", "");
+  expect_refused(4, "depth joint.toml --pose y=19", "(--pairs-only accepts such meshes)");
   expect_refusal(by_normals(), 4, "sheet.ply: triangles wound against each other at the edge from vertex ",
                  "");
   io::write_mesh(folder / "sheet.ply", sheet());
@@ -109,18 +108,17 @@ TEST_F(NormalMethod, ItsOptionsAreRefusedElsewhereAndWhereTheyMakeNoSense) {
 TEST_F(NormalMethod, WritesItsAnswerWithTheTrianglesOfTheCastingBody) {
   const Ran ran = by_normals("--json --out deep");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_EQ(io::read_whole_file(folder / "deep/depth.json"), ran.out);
-  const std::string fixed = io::read_whole_file(folder / "deep/fixed.vtp"),
-                    mobile = io::read_whole_file(folder / "deep/mobile.vtp");
+  EXPECT_EQ(text_of("deep/depth.json"), ran.out);
+  const std::string fixed = text_of("deep/fixed.vtp"), mobile = text_of("deep/mobile.vtp");
   for (const char* array : {"Name=\"depth_mm\"", "Name=\"contact_area_mm2\""}) {
     EXPECT_TRUE(says(mobile, array)) << array;
     EXPECT_FALSE(says(fixed, array)) << array;
   }
   EXPECT_TRUE(says(fixed, "Name=\"in_contact\""));
-  const std::string pairs = io::read_whole_file(folder / "deep/pairs.csv");
+  const std::string pairs = text_of("deep/pairs.csv");
   EXPECT_TRUE(says(pairs, "\nfixed_triangle,mobile_triangle\n"));
   done("depth joint.toml --pose y=19 --pairs-only --json --out pairs");
-  const std::string other = io::read_whole_file(folder / "pairs/pairs.csv");
+  const std::string other = text_of("pairs/pairs.csv");
   EXPECT_EQ(pairs.substr(pairs.find("fixed_triangle,")), other.substr(other.find("fixed_triangle,")));
 }
 

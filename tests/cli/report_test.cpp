@@ -280,7 +280,7 @@ TEST_F(ReportCommand, HoldsTheTrianglesThatMeetPastALimit) {
 
 TEST_F(ReportCommand, WithoutAJointIsThePageThatTakesOne) {
   done("report --empty --out report.html");
-  const std::string page = io::read_whole_file(folder / "report.html");
+  const std::string page = text_of("report.html");
   EXPECT_TRUE(says(page, "<!--condyle-data-->"));
   EXPECT_FALSE(says(page, "id=\"condyle-data\""));
   for (const std::string file : {"hip_bone.ply", "femur.ply", "hip.toml"})
@@ -315,14 +315,14 @@ TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
 TEST_F(ReportCommand, AnOlderReportStaysWhereANewOneFails) {
   folder.file("report.html", "of The Condyle authors");
   ASSERT_EQ(run("report joint.toml --out report.html --band=3").exit_code, 2);
-  EXPECT_EQ(io::read_whole_file(folder / "report.html"), "of The Condyle authors");
+  EXPECT_EQ(text_of("report.html"), "of The Condyle authors");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 4);
 }
 
 TEST_F(ReportCommand, IsTheSameBytesOnOneThreadAndOnTwo) {
   done("report joint.toml --threads 1 --band=20 --out one.html");
   done("report joint.toml --threads 2 --band=20 --out two.html");
-  EXPECT_EQ(io::read_whole_file(folder / "one.html"), io::read_whole_file(folder / "two.html"));
+  EXPECT_EQ(text_of("one.html"), text_of("two.html"));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
     EXPECT_EQ(faber[band]["p95_deg"], 120.0);
     EXPECT_TRUE(faber[band]["text"].get<std::string>().ends_with(">120")) << faber[band]["text"];
   }
-  const std::string csv = io::read_whole_file(folder / "plan" / "limits.csv");
+  const std::string csv = text_of("plan/limits.csv");
   EXPECT_TRUE(says(csv, fmt::format(",{},{}\n", faber["band"]["median_deg"].get<double>(), 120)));
   ASSERT_EQ(json["curve"].size(), expected.curve.size());
   // fadir is reached already: it has no curve.
@@ -99,8 +99,8 @@ TEST_F(ResectCommand, WritesAJointWithTheLimitsItSays) {
   const Json json = resected("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
   for (const char* name : {"resection.json", "limits.csv", "hours.csv", "depth_mobile.vtp", "resected.toml",
                            "resected_mobile.ply", "resected_fixed.ply"})
-    EXPECT_TRUE(std::filesystem::exists(folder / "plan" / name)) << name;
-  EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "curve.csv"));
+    EXPECT_TRUE(fs::exists(folder / "plan" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "plan" / "curve.csv"));
   const Json limits = answer("rom plan/resected.toml")["motions"];
   for (std::size_t i = 0; i < limits.size(); ++i)
     EXPECT_EQ(limits[i]["limit_deg"], json["limits"][i]["after"]["limit_deg"]) << limits[i]["motion"];
@@ -161,7 +161,7 @@ TEST_F(ResectCommand, NothingToDoIsAnAnswer) {
   const Json json = resected("--reach flexion=20 --out plan");
   EXPECT_TRUE(json["cuts"].empty());
   EXPECT_EQ(json["resection_notes"][0]["code"], "nothing_to_do");
-  EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "resected.toml"));
+  EXPECT_FALSE(fs::exists(folder / "plan" / "resected.toml"));
 }
 
 // With a margin the sweep has to be looked at; that nothing goes is no cut.
@@ -237,7 +237,7 @@ TEST_F(ResectCommand, MarkedVerticesStay) {
 
 TEST_F(ResectCommand, RefusesInOneLine) {
   mark_all_vertices();
-  std::ofstream(folder / "short.txt") << "1\n0\n";
+  write("short.txt", "1\n0\n");
   std::ofstream(folder / "wrong.txt") << "1\nyes\n";
   for (const auto& [arguments, code, says] :
        {std::tuple{"--reach wink=20", 2, "unknown motion \"wink\""},

@@ -31,7 +31,7 @@ TEST_F(RomOfSampleHip, TakesTheMarginGivenOrCountsEveryContact) {
 TEST_F(RomOfSampleHip, WritesTheMobileBodyWithItsBearingSurfaceMarked) {
   const Json bearing = limits("--motion flexion --out out --ascii")["bearing"];
   EXPECT_EQ(io::read_mesh(folder / "out/bearing.vtp").mesh, io::read_mesh(folder / "femur.ply").mesh);
-  const std::string vtp = io::read_whole_file(folder / "out/bearing.vtp");
+  const std::string vtp = text_of("out/bearing.vtp");
   const auto at = vtp.find("Name=\"bearing\"");
   ASSERT_NE(at, vtp.npos);
   const auto begin = vtp.find('>', at) + 1;

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <set>
-#include <sstream>
 
 #include "command.hpp"
 #include "mesh/subdivide.hpp"
@@ -75,7 +74,7 @@ TEST_F(RomCommand, HoldsLimitsAgainstPeopleLikeTheOneOfTheFileOrOfItsOptions) {
 TEST_F(RomCommand, WritesEveryFileAndOnlyWhole) {
   const std::string command = std::string("rom joint.toml --out out --json") + small_map;
   const Ran ran = done(command);
-  EXPECT_EQ(io::read_whole_file(here / "out/rom.json"), ran.out);
+  EXPECT_EQ(text_of("out/rom.json"), ran.out);
   for (const char* name : {"limits.csv", "map.csv", "map_intervals.csv", "map.vtp"})
     EXPECT_TRUE(fs::exists(here / "out" / name)) << name;
   EXPECT_EQ(Json::parse(ran.out)["map"]["points"], 25);
@@ -95,7 +94,7 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
   EXPECT_EQ(fixed, io::read_mesh(here / "post.ply").mesh);
   EXPECT_EQ(io::read_mesh(here / "out/zone_01_flexion_mobile.vtp").mesh.triangles,
             io::read_mesh(here / "arm.ply").mesh.triangles);
-  const std::string bytes = io::read_whole_file(here / "out/zone_01_flexion_mobile.vtp");
+  const std::string bytes = text_of("out/zone_01_flexion_mobile.vtp");
   for (const char* name :
        {"radial_depth_mm", "ray_to_normal_deg", "tangential_depth_deg", "tangential_depth_mm", "in_zone"})
     EXPECT_TRUE(says(bytes, name)) << name;
@@ -121,13 +120,13 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
 
 /// Otherwise a map of another question would stay beside the limits of this one.
 TEST_F(RomCommand, WhatAnEarlierRunWroteIsReplaced) {
-  std::ofstream(here / "notes.txt") << "somebody's";
+  write("notes.txt", "somebody's");
   done(std::string("rom joint.toml --motion flexion --past 4 --out .") + small_map);
   EXPECT_TRUE(fs::exists(here / "zone_01_flexion_fixed.vtp"));
   for (const char* drawn :
        {"limits.pdf", "limit_bands.png", "clock_face.png", "map_flexion.svg", "map_free_range.pdf"})
-    std::ofstream(here / drawn) << "drawn of it";
-  std::ofstream(here / "map_of_mine.pdf") << "somebody's";
+    write(drawn, "drawn of it");
+  write("map_of_mine.pdf", "somebody's");
   const Ran ran = done("rom joint.toml --motion extension --out .");
   EXPECT_TRUE(says(ran.err, "wrote ./rom.json, ./limits.csv"));
   done("rom joint.toml --motion extension --out fresh");
@@ -252,19 +251,18 @@ TEST_F(RomCommand, BandsStandBesideLimitsAndInEveryFile) {
 TEST_F(RomCommand, PrintedLinesFitATerminal) {
   for (const char* options : {"", " --frame source", " --map flexion=0:10:10 adduction=0:10:10",
                               " --band=20 --past 5", " --allow-depth 1"}) {
-    std::istringstream out(run(std::string("rom joint.toml") + options).out);
-    std::size_t lines = 0;
-    for (std::string line; std::getline(out, line); ++lines) {
+    const auto lines = lines_of(run(std::string("rom joint.toml") + options).out);
+    for (const std::string& line : lines) {
       const auto letters =
           std::count_if(line.begin(), line.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
       EXPECT_LE(letters, 100) << line;
     }
-    EXPECT_GT(lines, 12u) << options;
+    EXPECT_GT(lines.size(), 12u) << options;
   }
 }
 
 TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {
-  std::ofstream(here / "file") << "in the way";
+  write("file", "in the way");
   const Ran ran = run(std::string("rom joint.toml --out file") + long_map);
   EXPECT_EQ(ran.exit_code, 3);
   EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;

@@ -101,10 +101,10 @@ TEST_P(Shards, OfInputsThatAreOthersNowAreRefusedByName) {
   for (const std::string& file :
        is_study ? std::vector<std::string>{"post1.ply", "post9.ply", "hip4.toml", "arm.ply", "table.csv"}
                 : std::vector<std::string>{"neck.ply", "hip.toml", "daily.csv"}) {
-    const std::string before = io::read_whole_file(here / file);
-    std::ofstream(here / file, std::ios::app) << "\n";
+    const std::string before = text_of(file);
+    append(file, "\n");
     expect_merge_refused(file + ": is another since ", file);
-    std::ofstream(here / file, std::ios::binary) << before;
+    write(file, before);
   }
   // Where inputs are no more, shards are merged as they are.
   fs::create_directory(here / "elsewhere");
@@ -116,7 +116,7 @@ TEST_P(Shards, OfInputsThatAreOthersNowAreRefusedByName) {
 TEST_P(Shards, AreMadeAnewByTheirCommandAfterARefusal) {
   fs::remove_all(shard(2));
   fs::copy(shard(1), shard(2));
-  expect_refusal(run("merge out"), 3, "2_of_4", "copied");
+  CommandTest::expect_refused(3, "merge out", "2_of_4");
   const Ran again = answer_shard(2);
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_FALSE(says(again.err, "is there already"));

@@ -1,4 +1,3 @@
-#include <sstream>
 
 #include "command.hpp"
 #include "condyle/answer.hpp"
@@ -25,13 +24,6 @@ class SweepCommand : public CommandTest {
     return run(fmt::format("sweep hip.toml {} --targets daily.csv {}", vary, more));
   }
 };
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
 
 TEST_F(SweepCommand, SaysWhatTheLibraryAnswers) {
   const Ran ran = sweep("--band=20 --json --out zone");
@@ -75,7 +67,7 @@ TEST_F(SweepCommand, SaysWhatTheLibraryAnswers) {
         << rows[1 + i];
   EXPECT_EQ(lines_of(text_of("zone/safe.csv")).size(), 1 + expected.safe.size());
   // The document that is written is the one that is printed, with what a second run looks for.
-  Json written = Json::parse(text_of("zone/sweep.json"));
+  Json written = json_of("zone/sweep.json");
   for (const char* key : {"family", "files", "read"}) written.erase(key);
   EXPECT_EQ(written, json);
 }
@@ -83,7 +75,7 @@ TEST_F(SweepCommand, SaysWhatTheLibraryAnswers) {
 TEST_F(SweepCommand, OfShardsMergedIsTheWholeSweep) {
   ASSERT_EQ(sweep("--band=20 --out whole").exit_code, 0);
   for (int i = 3; i >= 1; --i) {
-    if (i == 2) expect_refusal(run("merge out"), 3, "2 of 3 shards are missing or not whole: 1, 2", "merge");
+    if (i == 2) expect_refused(3, "merge out", "2 of 3 shards are missing or not whole: 1, 2");
     const Ran ran = sweep(fmt::format("--band=20 --out out --shard {}/3", i));
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
   }
@@ -122,7 +114,7 @@ TEST_F(SweepCommand, IsNotDoneAgainUnlessSomethingIsOther) {
   EXPECT_TRUE(is_done_again("--bearing count"));
   EXPECT_TRUE(is_done_again("--band=20"));
   EXPECT_TRUE(is_done_again("--band=20 --seed 2"));
-  std::ofstream(folder / "daily.csv", std::ios::app) << "bending,abduction,20,,\n";
+  append("daily.csv", "bending,abduction,20,,\n");
   EXPECT_TRUE(is_done_again("--band=20 --seed 2"));
   EXPECT_FALSE(is_done_again("--band=20 --seed 2"));
 }
@@ -141,10 +133,9 @@ TEST_F(SweepCommand, DoesADamagedShardAgainAndMergesNone) {
   }
   done("merge out");
   ASSERT_EQ(sweep("--out out --shard 2/2 --bearing count").exit_code, 0);
-  expect_refusal(run("merge out"), 3, "is of another joint, other targets, options or another version",
-                 "other options");
+  expect_refused(3, "merge out", "is of another joint, other targets, options or another version");
   ASSERT_EQ(sweep("--out out --shard 1/3").exit_code, 0);
-  expect_refusal(run("merge out"), 3, "shards of 2 and of 3 lie there", "other counts");
+  expect_refused(3, "merge out", "shards of 2 and of 3 lie there");
 }
 
 TEST_F(SweepCommand, RefusesWrongWordsInOneLineAndWritesNothing) {
@@ -156,9 +147,6 @@ TEST_F(SweepCommand, RefusesWrongWordsInOneLineAndWritesNothing) {
   for (const auto& [arguments, code, says] :
        {std::tuple{"hip.toml --vary cup.inclinaton=30:50:5 --targets daily.csv", 2,
                    "there is no parameter \"cup.inclinaton\""},
-        {"hip.toml --vary cup.inclination=30:50 --targets daily.csv", 2,
-         "is not a parameter with its first and last value and a step"},
-        {"hip.toml --vary cup.inclination=30:95:5 --targets daily.csv", 2, "95 deg is outside of its range"},
         {"hip.toml --vary '' --targets daily.csv", 2, "no parameter is given"},
         {"plain/hip.toml --vary cup.inclination=30:50:5 --targets daily.csv", 2,
          "the joint has no part with parameters: its file has no [[part]]"},

@@ -40,12 +40,12 @@ TEST_F(TouchCommand, SaysHowDeepAndHowFarOut) {
   done("touch a.ply b.ply --matrix down.txt --out origin --ascii --picture origin.png");
   for (const char* said : {"b.ply", "--matrix", "sha256"}) {
     for (const char* name : {"origin/touch.json", "origin.png"})
-      EXPECT_TRUE(says(io::read_whole_file(here / name), said)) << name << ": " << said;
+      EXPECT_TRUE(says(text_of(name), said)) << name << ": " << said;
     // VTK writes texts as the codes of their letters.
     std::string codes;
     for (const char* letter = said; *letter; ++letter) codes += " " + std::to_string(int{*letter});
     for (const char* name : {"origin/fixed.vtp", "origin/mobile.vtp", "origin/place.vtp"}) {
-      std::string written = io::read_whole_file(here / name);
+      std::string written = text_of(name);
       std::replace(written.begin(), written.end(), '\n', ' ');
       EXPECT_TRUE(says(written, codes)) << name << ": " << said;
     }

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "command.hpp"
 #include "condyle/contact.hpp"
@@ -115,12 +114,11 @@ TEST_F(WrittenLimits, OfAMapAreItsFreeIntervalsInTheModelsCoordinates) {
   const Json said = Json::parse(
       written("--map adduction=-20:10:10 internal_rotation=0:60:20 --write-limits again.csv --json").out);
   const Json& intervals = said["map"]["intervals"];
-  std::istringstream file(text_of("coupled.csv"));
-  std::string line;
-  while (std::getline(file, line) && line.starts_with("#")) continue;
-  EXPECT_EQ(line, "add_deg,rot_deg,flex_lower_deg,flex_upper_deg,flex_lower_reason,flex_upper_reason");
-  std::size_t i = 0;
-  for (; std::getline(file, line); ++i) {
+  const std::vector<std::string> lines = lines_of(text_of("coupled.csv"));
+  EXPECT_EQ(lines[0], "add_deg,rot_deg,flex_lower_deg,flex_upper_deg,flex_lower_reason,flex_upper_reason");
+  ASSERT_EQ(lines.size(), 17u);
+  for (std::size_t i = 0; i < 16; ++i) {
+    const std::string& line = lines[i + 1];
     double adduction = 0, rotation = 0, lower = 0, upper = 0;
     ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,", &adduction, &rotation, &lower, &upper), 4)
         << line;
@@ -133,7 +131,6 @@ TEST_F(WrittenLimits, OfAMapAreItsFreeIntervalsInTheModelsCoordinates) {
     EXPECT_EQ(lower, -intervals["high_deg"][k].get<double>());
     EXPECT_EQ(upper, -intervals["low_deg"][k].get<double>());
   }
-  EXPECT_EQ(i, 16u);
 }
 
 /// Whether the bodies meet with the model's coordinates at these degrees.
