@@ -109,7 +109,7 @@ ResectionOptions with_gains_resolved(const Joint& joint, const ResectionOptions&
     const std::string& name = target.motion.name;
     if (end.reason == motion::LimitReason::end_of_range)
       throw MeshError("resection: nothing ends " + name + " within its range of " +
-                       degrees(target.motion.range) + " degrees: it has nothing to gain");
+                      degrees(target.motion.range) + " degrees: it has nothing to gain");
     if (end.turned + target.reach > target.motion.range)
       throw UsageError("resection: " + name + " ends at " + degrees(end.turned) + " degrees, and " +
                        degrees(target.reach) + " more are " + degrees(end.turned + target.reach) +

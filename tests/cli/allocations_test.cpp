@@ -1,27 +1,13 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 /// Each allocation of a command fails in turn (preload/failing_allocations.cpp): one line and exit code 5, the earlier result or the
 /// new one, whole, and nothing lost; never another answer.
 
 namespace condyle::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Failing {
   const char *name, *before, *command;
@@ -81,11 +67,7 @@ class FailingAllocations : public ::testing::TestWithParam<Failing> {
     fs::create_directory(here);
     io::write_mesh(here / "post.ply", box({40, -120, -50}, {60, -80, 50}));
     io::write_mesh(here / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
-    std::ofstream(here / "joint.toml") << "condyle = 1\nname = \"arm and post\"\nkind = \"ball\"\nside = "
-                                          "\"right\"\nunits = \"mm\"\n[fixed]\n"
-                                          "mesh = \"post.ply\"\n[mobile]\nmesh = "
-                                          "\"arm.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
-                                          "superior = [0, 1, 0]\n";
+    std::ofstream(here / "joint.toml") << text_of_joint({});
     std::ofstream(here / "two.csv") << "id,joint\na,joint.toml\nb,joint.toml\n";
     if (is_long_command()) make_hips();
     ASSERT_EQ(run_condyle(here, GetParam().before).exit_code, 0);

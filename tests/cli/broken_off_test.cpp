@@ -1,23 +1,16 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
+#include <memory>
 #include <random>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "command.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
 
 /// Commands that are ended from outside, or that cannot write: what was there stays, or what was asked for is there, each file
 /// whole.
@@ -25,7 +18,6 @@
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 /// Every file below a folder and what it holds, but for folders that a killed run could not clear away.
@@ -40,40 +32,10 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
   return files;
 }
 
-bool has_temporary(const fs::path& folder) {
-  if (!fs::exists(folder)) return false;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().filename().string().starts_with(".condyle-")) return true;
-  return false;
-}
-
-/// Starts `condyle ARGUMENTS` in a folder of its own process; standard error goes into a file.
-pid_t start(const fs::path& folder, std::vector<std::string> arguments, const fs::path& err) {
-  std::fflush(nullptr);  // else the child would write it again, or into a file that is full
-  const pid_t child = ::fork();
-  if (child != 0) return child;
-  ::setenv("OMP_NUM_THREADS", "1", 1);
-  arguments.insert(arguments.begin(), CONDYLE_COMMAND);
-  std::vector<char*> words;
-  for (std::string& word : arguments) words.push_back(word.data());
-  words.push_back(nullptr);
-  if (::chdir(folder.c_str()) != 0 || std::freopen("/dev/null", "w", stdout) == nullptr ||
-      std::freopen(err.c_str(), "w", stderr) == nullptr)
-    ::_exit(99);
-  ::execv(words[0], words.data());
-  ::_exit(99);
-}
-
-int status_of(pid_t child) {
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
-}
-
 /// A command that writes, with what it wrote before and what it is to write.
 struct Writing {
   const char* name;
-  std::vector<std::string> before, after;
+  std::string before, after;
   const char* bones = "sample";  ///< the folder of the joint
 };
 
@@ -81,45 +43,31 @@ void PrintTo(const Writing& writing, std::ostream* out) {
   *out << writing.name;
 }
 
+const std::string sweep = "sweep thr/hip.toml --targets targets.csv --out result --vary 'cup.inclination=",
+                  both_angles = "0:50:10 cup.anteversion=0:10:10'";
 const std::vector<Writing> writings = {
-    {"rom",
-     {"rom", "sample/hip.toml", "--out", "result", "--motion", "flexion"},
-     {"rom", "sample/hip.toml", "--out", "result", "--map", "flexion=0:60:20", "--map",
-      "adduction=-10:10:10"}},
-    {"report",
-     {"report", "sample/hip.toml", "--out", "result/page.html", "--title", "earlier"},
-     {"report", "sample/hip.toml", "--out", "result/page.html"}},
-    {"motion",
-     {"motion", "sample/hip.toml", "--motion", "squat.csv", "--out", "result"},
-     {"motion", "sample/hip.toml", "--motion", "stride.csv", "--out", "result"}},
-    {"sweep",
-     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=40:50:10", "--targets", "targets.csv", "--out",
-      "result"},
-     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=0:10:10", "--targets",
-      "targets.csv", "--out", "result"},
-     "thr"},
-    {"shard_of_sweep",
-     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=40:50:10 cup.anteversion=0:10:10", "--targets",
-      "targets.csv", "--out", "result", "--shard", "2/2"},
-     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=0:10:10", "--targets",
-      "targets.csv", "--out", "result", "--shard", "2/2"},
+    {"rom", "rom sample/hip.toml --out result --motion flexion",
+     "rom sample/hip.toml --out result --map flexion=0:60:20 --map adduction=-10:10:10"},
+    {"report", "report sample/hip.toml --out result/page.html --title earlier",
+     "report sample/hip.toml --out result/page.html"},
+    {"motion", "motion sample/hip.toml --motion squat.csv --out result",
+     "motion sample/hip.toml --motion stride.csv --out result"},
+    {"sweep", sweep + "40:50:10'", sweep + "3" + both_angles, "thr"},
+    {"shard_of_sweep", sweep + "4" + both_angles + " --shard 2/2", sweep + "3" + both_angles + " --shard 2/2",
      "thr"},
 };
 
 class BrokenOff : public testing::TestWithParam<Writing> {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
+    folder_ = std::make_unique<TemporaryFolder>();
     sample_into(*folder_ / "sample", "hip");
     sample_into(*folder_ / "thr", "replacement");
     folder_->file("targets.csv", "name,motion,reach_deg\nbend,flexion,110\nstep,extension,30\n");
     folder_->file("squat.csv", "time,flexion_deg\n0,0\n0.5,40\n1,80\n");
     folder_->file("stride.csv", "time,flexion_deg,adduction_deg\n0,30,0\n0.5,0,-5\n1,-10,3\n");
   }
-  static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
-  }
+  static void TearDownTestSuite() { folder_.reset(); }
 
   /// Both results are made once for all tests of a command.
   void SetUp() override {
@@ -141,9 +89,11 @@ class BrokenOff : public testing::TestWithParam<Writing> {
   static fs::path later() { return here() / (std::string(GetParam().name) + ".after"); }
   static fs::path err() { return here() / "err.txt"; }
 
-  static void run_whole(const std::vector<std::string>& arguments) {
-    const int status = status_of(start(here(), arguments, err()));
-    ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << io::read_whole_file(err());
+  static int run_to_end(const std::string& arguments) {
+    return end_of(start_condyle(here(), arguments, err()));
+  }
+  static void run_whole(const std::string& arguments) {
+    ASSERT_EQ(run_to_end(arguments), 0) << io::read_whole_file(err());
   }
 
   /// The new result. How long it takes changes with what else the machine does, so the latest run counts.
@@ -169,13 +119,10 @@ class BrokenOff : public testing::TestWithParam<Writing> {
     }
   }
 
-  static TemporaryFolder* folder_;
-  static std::map<std::string, Clock::duration> takes_;
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::map<std::string, Clock::duration> takes_;
   std::map<std::string, std::string> old_, new_;
 };
-
-TemporaryFolder* BrokenOff::folder_ = nullptr;
-std::map<std::string, Clock::duration> BrokenOff::takes_;
 
 int kills() {
   return std::getenv("CONDYLE_LONG_TESTS") ? 200 / static_cast<int>(writings.size()) + 1 : 6;
@@ -188,23 +135,22 @@ TEST_P(BrokenOff, AtAnyMomentLeavesEachFileOldOrNewAndTheNextRunTheSameBytes) {
   for (int i = 0; i < kills() || (ended_early <= kills() / 3 && i < 10 * kills()); ++i) {
     restore();
     const int signal = std::array{SIGINT, SIGKILL, SIGTERM, SIGKILL, SIGHUP, SIGKILL}[i % 6];
-    const pid_t child = start(here(), GetParam().after, err());
+    const pid_t child = start_condyle(here(), GetParam().after, err());
     const double share = 1.1 * static_cast<double>(random() % 1000) / 1000;
     std::this_thread::sleep_for(std::chrono::duration<double>(takes_[GetParam().name]) * share);
     ::kill(child, signal);
-    const int status = status_of(child);
-    const bool finished = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    ended_early += !finished;
+    const int end = end_of(child);
+    ended_early += end != 0;
     if (signal == SIGKILL) {
-      EXPECT_TRUE(finished || (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
-    } else if (!finished && WIFEXITED(status)) {
-      EXPECT_EQ(WEXITSTATUS(status), 130);
+      EXPECT_TRUE(end == 0 || end == -SIGKILL) << end;
+    } else if (end > 0) {
+      EXPECT_EQ(end, 130);
       const std::string said = io::read_whole_file(err());
-      EXPECT_NE(said.find("condyle: "), said.npos) << said;
+      EXPECT_TRUE(says(said, "condyle: "));
       EXPECT_EQ(said.back(), '\n') << said;
-    } else if (!finished) {
+    } else if (end < 0) {
       // Before the program had begun to listen.
-      EXPECT_EQ(WTERMSIG(status), signal);
+      EXPECT_EQ(end, -signal);
     }
     if (signal != SIGKILL) {
       EXPECT_FALSE(has_temporary(here() / "result")) << signal;
@@ -225,13 +171,11 @@ TEST_P(BrokenOff, WithoutRoomForItsFilesLeavesTheEarlierOnesAndSaysSoInOneLine) 
   struct rlimit little = before;
   little.rlim_cur = 1500;
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
-  const pid_t child = start(here(), GetParam().after, err());
+  const pid_t child = start_condyle(here(), GetParam().after, err());
   ::setrlimit(RLIMIT_FSIZE, &before);
-  const int status = status_of(child);
-  ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
-  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_EQ(end_of(child), 3);
   const std::string said = io::read_whole_file(err());
-  EXPECT_NE(said.find("cannot be written: File too large\n"), said.npos) << said;
+  EXPECT_TRUE(says(said, "cannot be written: File too large\n"));
   EXPECT_EQ(files_in(here() / "result"), old_);
 }
 
@@ -239,9 +183,9 @@ TEST_P(BrokenOff, InAFolderThatMayNotBeWrittenToLeavesItAsItWas) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write to every folder";
   restore();
   fs::permissions(here() / "result", fs::perms::owner_read | fs::perms::owner_exec);
-  const int status = status_of(start(here(), GetParam().after, err()));
+  const int end = run_to_end(GetParam().after);
   fs::permissions(here() / "result", fs::perms::owner_all);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3);
+  EXPECT_EQ(end, 3);
   EXPECT_TRUE(is_one_error_line(without_notes(io::read_whole_file(err()))));
   EXPECT_EQ(files_in(here() / "result"), old_);
 }
@@ -250,12 +194,12 @@ TEST_P(BrokenOff, WithAnInputThatVanishedSaysWhichInOneLine) {
   restore();
   const fs::path bones = here() / GetParam().bones;
   fs::rename(bones / "femur.ply", bones / "gone.ply");
-  const int status = status_of(start(here(), GetParam().after, err()));
+  const int end = run_to_end(GetParam().after);
   fs::rename(bones / "gone.ply", bones / "femur.ply");
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3);
+  EXPECT_EQ(end, 3);
   const std::string said = without_notes(io::read_whole_file(err()));
   EXPECT_TRUE(is_one_error_line(said)) << said;
-  EXPECT_NE(said.find("femur.ply"), said.npos) << said;
+  EXPECT_TRUE(says(said, "femur.ply"));
   EXPECT_EQ(files_in(here() / "result"), old_);
 }
 

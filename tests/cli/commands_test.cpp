@@ -1,76 +1,38 @@
-#include <gtest/gtest.h>
-
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
 #include "condyle/version.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
 /// A hip of a socket and a head on a neck.
-class Command : public ::testing::Test {
+class Command : public CommandTest {
  protected:
   void SetUp() override {
-    fs::create_directory(folder / "in");
-    femur = joined(sphere({0, 0, 0}, 24, 4), box({-10, -400, -10}, {10, -40, 10}));
-    hip_bone = socket({0, 0, 0}, 26, 60, 3);
     io::write_mesh(here / "femur.ply", femur);
     io::write_mesh(here / "hip_bone.ply", hip_bone);
-    std::ofstream(here / "right_hip.toml") << joint_text;
-  }
-  Ran run(const std::string& arguments, const std::string& redirections = "") const {
-    return run_condyle(here, arguments, redirections);
-  }
-  void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
-    expect_refusal(run(arguments), exit_code, saying, arguments);
+    write("right_hip.toml", joint);
   }
   void write_joint(std::string_view from, std::string_view to) const {
-    std::string text = joint_text;
-    text.replace(text.find(from), from.size(), to);
-    std::ofstream(here / "right_hip.toml") << text;
+    write("right_hip.toml", joint);
+    edit("right_hip.toml", from, to);
   }
 
-  static constexpr const char* joint_text = R"(condyle = 1
-name = "right hip"
-kind = "ball"
-side = "right"
-units = "mm"
-[fixed]
-mesh = "hip_bone.ply"
-[mobile]
-mesh = "femur.ply"
-[frame]
-centre = "fit"
-anterior = [1, 0, 0]
-superior = [0, 1, 0]
-)";
-  const TemporaryFolder folder;
-  const fs::path here = folder / "in";
-  TriMesh femur, hip_bone;
+  const std::string joint = text_of_joint(
+      {.fixed = "hip_bone.ply", .mobile = "femur.ply", .name = "right hip", .centre = "\"fit\""});
+  const TriMesh femur = joined(sphere({0, 0, 0}, 24, 4), box({-10, -400, -10}, {10, -40, 10})),
+                hip_bone = socket({0, 0, 0}, 26, 60, 3);
 };
 
 TEST_F(Command, InspectAnswersInTextAndJson) {
-  const Ran text = run("inspect femur.ply hip_bone.ply");
-  EXPECT_EQ(text.exit_code, 0);
+  const Ran text = done("inspect femur.ply hip_bone.ply");
   EXPECT_EQ(text.err, "");
-  EXPECT_NE(text.out.find("femur.ply\n  " + std::to_string(femur.vertices.size()) + " vertices"),
-            text.out.npos)
-      << text.out;
-  const Ran json = run("inspect femur.ply hip_bone.ply --json");
-  EXPECT_EQ(json.exit_code, 0);
-  const Json answer = Json::parse(json.out);
+  EXPECT_TRUE(says(text.out, "femur.ply\n  " + std::to_string(femur.vertices.size()) + " vertices"));
+  const Json answer = this->answer("inspect femur.ply hip_bone.ply");
   ASSERT_EQ(answer["meshes"].size(), 2u);
   EXPECT_EQ(answer["meshes"][0]["file"], "femur.ply");
   EXPECT_EQ(answer["meshes"][0]["vertices"], femur.vertices.size());
@@ -84,16 +46,15 @@ TEST_F(Command, InspectAnswersInTextAndJson) {
   ASSERT_EQ(from["meshes"].size(), 2u);
   EXPECT_EQ(from["meshes"][1]["path"], "hip_bone.ply");
   EXPECT_EQ(from["meshes"][1]["bytes"], fs::file_size(here / "hip_bone.ply"));
-  EXPECT_EQ(from["meshes"][1]["sha256"], io::digest_of(io::read_whole_file(here / "hip_bone.ply")).sha256);
+  EXPECT_EQ(from["meshes"][1]["sha256"], io::digest_of(text_of("hip_bone.ply")).sha256);
 }
 
 TEST_F(Command, InspectRepairsOnRequestAndWritesTheResult) {
   TriMesh dirty = flipped(femur);
   dirty.vertices.push_back({5, 5, 5});
   io::write_mesh(here / "dirty.ply", dirty);
-  const Ran ran = run("inspect dirty.ply --repair drop_unreferenced,flip_inverted --out repaired --json");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  const Json answer = Json::parse(ran.out);
+  const Json answer =
+      this->answer("inspect dirty.ply --repair drop_unreferenced,flip_inverted --out repaired");
   EXPECT_EQ(answer["meshes"][0]["repairs"][0], (Json{{"repair", "drop_unreferenced"}, {"count", 1}}));
   EXPECT_EQ(answer["meshes"][0]["inverted_components"]["count"], 0);
   const TriMesh repaired = io::read_mesh(here / "repaired/dirty.ply").mesh;
@@ -102,14 +63,11 @@ TEST_F(Command, InspectRepairsOnRequestAndWritesTheResult) {
 }
 
 TEST_F(Command, FrameAnswersInTextAndJson) {
-  const Ran text = run("frame right_hip.toml");
-  EXPECT_EQ(text.exit_code, 0);
+  const Ran text = done("frame right_hip.toml");
   EXPECT_TRUE(text.err.starts_with("condyle: note: separate_pieces: mobile is 2 pieces")) << text.err;
   EXPECT_EQ(std::count(text.err.begin(), text.err.end(), '\n'), 1);
-  EXPECT_NE(text.out.find("sphere of radius 24.000 mm"), text.out.npos) << text.out;
-  const Ran json = run("frame --json right_hip.toml");
-  EXPECT_EQ(json.exit_code, 0);
-  const Json answer = Json::parse(json.out);
+  EXPECT_TRUE(says(text.out, "sphere of radius 24.000 mm"));
+  const Json answer = this->answer("frame right_hip.toml");
   EXPECT_EQ(answer["side"], "right");
   EXPECT_EQ(answer["kind"], "ball");
   EXPECT_EQ(answer["axes"]["right"], (Json{0.0, 0.0, 1.0}));
@@ -137,8 +95,8 @@ TEST_F(Command, WrongUsageEndsWithTwo) {
 }
 
 TEST_F(Command, ABadFileEndsWithThree) {
-  folder.file("in/empty.stl", "");
-  folder.file("in/line\nbreak.ply", "ply\nformat");
+  write("empty.stl", "");
+  write("line\nbreak.ply", "ply\nformat");
   expect_refused(3, "inspect none.ply", "none.ply");
   expect_refused(3, "inspect empty.stl", "empty.stl");
   expect_refused(3, "inspect femur.ply empty.stl", "empty.stl");
@@ -155,7 +113,7 @@ TEST_F(Command, ABadFileEndsWithThree) {
 /// By content or, where that shows nothing, by name: whatever is no joint file has a command that takes it.
 TEST_F(Command, WhatIsNoJointFileIsNamedWithWhatTakesIt) {
   const auto refused = [&](const std::string& name, const std::string& text, const std::string& saying) {
-    folder.file("in/" + name, text);
+    write(name, text);
     expect_refused(3, "rom " + name, name + ": is " + saying);
   };
   const std::string text = "some text\n";
@@ -186,13 +144,13 @@ TEST_F(Command, WhatIsNoJointFileIsNamedWithWhatTakesIt) {
   refused("walk.mot", text, "a recorded motion, not a joint file: condyle motion JOINT --motion walk.mot ");
   refused("table.csv", "id,joint\n", "a table, not a joint file: condyle study takes ");
   refused("joint.toml", "PK\3\4", "compressed by zip, not a joint file: uncompress it first");
-  folder.file("in/scan.dcm", text);
+  write("scan.dcm", text);
   expect_refused(3, "rom scan.dcm", "scan.dcm: DICOM is not read");
-  folder.file("in/text.toml", text);
+  write("text.toml", text);
   expect_refused(3, "rom text.toml", "text.toml: line 1: not TOML: ");
   // A joint file is one under any name.
-  std::filesystem::copy_file(folder.path() / "in/right_hip.toml", folder.path() / "in/hip.ply");
-  EXPECT_EQ(run("frame hip.ply").exit_code, 0);
+  fs::copy_file(here / "right_hip.toml", here / "hip.ply");
+  done("frame hip.ply");
 }
 
 TEST_F(Command, AnUnwritableFolderEndsWithThreeAndLeavesNothing) {
@@ -229,8 +187,7 @@ TEST_F(Command, AClosedStandardOutputIsNotMixedIntoResultFiles) {
 
 TEST_F(Command, HelpAndVersionAreAnswers) {
   for (const char* arguments : {"--help", "inspect --help", "frame --help", "--version"}) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit_code, 0) << arguments;
+    const Ran ran = done(arguments);
     EXPECT_EQ(ran.err, "") << arguments;
     EXPECT_NE(ran.out, "") << arguments;
   }
@@ -276,13 +233,12 @@ TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
 }
 
 TEST_F(Command, InitReplacesNoJointFile) {
-  const std::string edited = io::read_whole_file(here / "right_hip.toml");
+  const std::string edited = text_of("right_hip.toml");
   expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml",
                  "right_hip.toml: is there already, and may have been edited: name another or remove it");
-  EXPECT_EQ(io::read_whole_file(here / "right_hip.toml"), edited);
-  const Ran ran = run("init hip_bone.ply femur.ply -o new.toml");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  const std::string proposed = io::read_whole_file(here / "new.toml");
+  EXPECT_EQ(text_of("right_hip.toml"), edited);
+  done("init hip_bone.ply femur.ply -o new.toml");
+  const std::string proposed = text_of("new.toml");
   EXPECT_EQ(run("init hip_bone.ply femur.ply").out, proposed);
   expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "name another or remove it");
   expect_refused(2, "init hip_bone.ply femur.ply -o new.json",

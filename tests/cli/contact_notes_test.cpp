@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "motion_scene.hpp"
 
@@ -15,7 +13,7 @@ std::vector<std::string> codes_in(const Ran& ran) {
   const Json answer = Json::parse(ran.out);
   for (const auto& note : answer["notes"]) {
     codes.push_back(note["code"]);
-    EXPECT_NE(ran.err.find("condyle: note: " + codes.back() + ": "), std::string::npos) << ran.err;
+    EXPECT_TRUE(says(ran.err, "condyle: note: " + codes.back() + ": "));
   }
   return codes;
 }
@@ -31,8 +29,7 @@ TEST_F(Motion, LayersThatNothingHasAreNoted) {
   for (const Case& each : {Case{"--e 1e9", "unlikely_modulus"}, Case{"--nu 0.4999", "unlikely_poisson_ratio"},
                            Case{"--thickness 1500", "unlikely_thickness"}}) {
     const std::string load = std::string("load cup.toml --pose y=-0.5 --json ") + each.options;
-    const Ran ran = run(load);
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const Ran ran = done(load);
     EXPECT_TRUE(has(codes_in(ran), each.code)) << ran.err;
     const Ran strict = run(load + " --strict");
     EXPECT_EQ(strict.exit_code, 4);
@@ -57,8 +54,7 @@ TEST_F(Motion, LoadsAndOverlapsBeyondWhatLayersBearAreNoted) {
 TEST_F(Motion, RecordedNumbersInAnotherUnitAreNoted) {
   // Degrees and millimetres under names that say radians and metres.
   write("wrong.csv", "time,flexion_rad,y_m\n0,0,0\n0.1,40,-0.2\n0.2,90,-5\n0.3,90,-5\n");
-  const Ran ran = run("motion cup.toml --motion wrong.csv --json");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Ran ran = done("motion cup.toml --motion wrong.csv --json");
   const auto codes = codes_in(ran);
   EXPECT_TRUE(has(codes, "unlikely_angle"));
   EXPECT_TRUE(has(codes, "unlikely_translation"));
@@ -77,34 +73,28 @@ TEST_F(Motion, ASignThatPutsTheBodiesIntoEachOtherIsNoted) {
 }
 
 TEST_F(Motion, AnswersSayWhatTheTrianglesSizeLeavesOpen) {
-  const Ran ran = run("load cup.toml --force 0 -1500 0 --json");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Json json = Json::parse(ran.out);
+  const Json json = answer("load cup.toml --force 0 -1500 0");
   const double force = json["on_mobile"]["force_n"][1], refined = json["refined_force_n"][1];
   EXPECT_NE(force, refined);
   EXPECT_NEAR(refined, force, 0.1 * force);
-  EXPECT_NE(run("load cup.toml --force 0 -1500 0").out.find("with 16 rays in each triangle"),
-            std::string::npos);
-  EXPECT_EQ(Json::parse(run("load cup.toml --pose y=-0.5 --rule face_centre --json").out)["refined_force_n"],
-            nullptr);
+  EXPECT_TRUE(says(run("load cup.toml --force 0 -1500 0").out, "with 16 rays in each triangle"));
+  EXPECT_EQ(answer("load cup.toml --pose y=-0.5 --rule face_centre")["refined_force_n"], nullptr);
 }
 
 TEST_F(Motion, ARecordingThatEndsInContactSaysSo) {
   write("swing.csv", "time,flexion_deg\n0,0\n0.1,30\n");
-  const Ran ran = run("motion shank.toml --motion swing.csv --json --out out");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Json contact = Json::parse(ran.out)["between_samples"]["contacts"][0];
+  const Json contact =
+      answer("motion shank.toml --motion swing.csv --out out")["between_samples"]["contacts"][0];
   EXPECT_EQ(contact["exit"]["kind"], "recording_ends");
   EXPECT_EQ(contact["exit"]["uncertainty_s"], nullptr);
   EXPECT_EQ(contact["entry"]["kind"], "exact");
-  const std::string csv = text_of(folder / "out/contacts.csv");
+  const std::string csv = text_of("out/contacts.csv");
   EXPECT_TRUE(
       csv.starts_with("entry_s,entry_kind,entry_uncertainty_s,entry_turned_deg,exit_s,exit_kind,"
                       "exit_uncertainty_s,exit_turned_deg,is_certain,"))
       << csv;
-  EXPECT_NE(csv.find(",0.1,recording_ends,,"), std::string::npos) << csv;
-  EXPECT_NE(run("motion shank.toml --motion swing.csv").out.find("to 0.100000 s (recording ends)"),
-            std::string::npos);
+  EXPECT_TRUE(says(csv, ",0.1,recording_ends,,"));
+  EXPECT_TRUE(says(run("motion shank.toml --motion swing.csv").out, "to 0.100000 s (recording ends)"));
 }
 
 }  // namespace

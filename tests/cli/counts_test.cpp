@@ -1,12 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <fmt/format.h>
-
-#include <string>
-#include <vector>
-
 #include "command.hpp"
-#include "support/temporary_folder.hpp"
 
 /// Every option that counts something: what is no whole number, or beyond its bound, is refused before anything is made of it.
 /// docs/bounds.md lists the bounds.

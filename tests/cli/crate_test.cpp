@@ -1,34 +1,20 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "command.hpp"
-#include "io/file/whole_file.hpp"
 #include "io/result/crate.hpp"
 #include "support/small_cohort.hpp"
-#include "support/temporary_folder.hpp"
 
 /// `--crate`: an RO-Crate names every file of the folder and every file that was read, with digests that sha256sum finds too.
 
 namespace condyle::test {
 namespace {
 
-using Json = nlohmann::json;
-namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
-class Crate : public ::testing::Test {
+class Crate : public CommandTest {
  protected:
-  Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
-  std::string text(const std::string& name) const { return io::read_whole_file(here / name); }
-  Json crate(const std::string& out) const { return Json::parse(text(out + "/ro-crate-metadata.json")); }
+  Json crate(const std::string& out) const { return json_of(out + "/ro-crate-metadata.json"); }
 
   static Json entity(const Json& crate, const std::string& id) {
     for (const Json& each : crate.at("@graph"))
@@ -78,8 +64,6 @@ class Crate : public ::testing::Test {
     EXPECT_EQ(ids(entity(crate(out), "#run").at("result")), there);
   }
 
-  const TemporaryFolder folder;
-  const fs::path here = folder / "in";
   const SmallCohort cohort{here, 4};
 };
 
@@ -87,7 +71,7 @@ TEST_F(Crate, OfRangesOfMotionNamesEveryFileWithItsDigest) {
   const std::string command =
       "rom hip1.toml --motion flexion --map adduction=-10:10:10 internal_rotation=-10:10:10 --crate "
       "2026-01-31";
-  ASSERT_EQ(run(command + " --out out").exit_code, 0);
+  done(command + " --out out");
   const Json json = crate("out"), root = entity(json, "./"), action = entity(json, "#run");
   expect_all_files("out");
   expect_digests("out", "");
@@ -101,27 +85,26 @@ TEST_F(Crate, OfRangesOfMotionNamesEveryFileWithItsDigest) {
   EXPECT_EQ(action.at("description"),
             "condyle rom hip1.toml --motion flexion --map adduction=-10:10:10 --map "
             "internal_rotation=-10:10:10");
-  ASSERT_EQ(run(command + " --out again --threads 1").exit_code, 0);
-  EXPECT_EQ(text("again/ro-crate-metadata.json"), text("out/ro-crate-metadata.json"));
-  ASSERT_EQ(run("rom hip1.toml --motion flexion --out out").exit_code, 0);
+  done(command + " --out again --threads 1");
+  EXPECT_EQ(text_of("again/ro-crate-metadata.json"), text_of("out/ro-crate-metadata.json"));
+  done("rom hip1.toml --motion flexion --out out");
   EXPECT_FALSE(fs::exists(here / "out/ro-crate-metadata.json")) << "of an earlier answer";
 }
 
 TEST_F(Crate, ChangesNoOtherFile) {
-  ASSERT_EQ(run("rom hip1.toml --motion flexion --out without").exit_code, 0);
-  ASSERT_EQ(run("rom hip1.toml --motion flexion --out with --crate 2026-01-31").exit_code, 0);
+  done("rom hip1.toml --motion flexion --out without");
+  done("rom hip1.toml --motion flexion --out with --crate 2026-01-31");
   for (const char* name : {"rom.json", "limits.csv"})
-    EXPECT_EQ(text(std::string("with/") + name), text(std::string("without/") + name)) << name;
+    EXPECT_EQ(text_of(std::string("with/") + name), text_of(std::string("without/") + name)) << name;
 }
 
 TEST_F(Crate, OfShardsMergedIsThatOfTheWholeStudy) {
-  ASSERT_EQ(run("study table.csv --motion flexion --out whole --crate 2026-01-31").exit_code, 0);
+  done("study table.csv --motion flexion --out whole --crate 2026-01-31");
   expect_all_files("whole");
   expect_digests("whole", "");
   for (const char* shard : {"1/2", "2/2"})
-    ASSERT_EQ(run(fmt::format("study table.csv --motion flexion --out parted --shard {}", shard)).exit_code,
-              0);
-  ASSERT_EQ(run("merge parted --crate 2026-01-31").exit_code, 0);
+    done(fmt::format("study table.csv --motion flexion --out parted --shard {}", shard));
+  done("merge parted --crate 2026-01-31");
   expect_digests("parted", "");
   // study.json says that it was merged.
   Json whole = crate("whole"), merged = crate("parted");
@@ -136,22 +119,20 @@ TEST_F(Crate, OfShardsMergedIsThatOfTheWholeStudy) {
 }
 
 TEST_F(Crate, ComesToAStudyThatIsThereAlready) {
-  ASSERT_EQ(run("study table.csv --motion flexion --out once --crate 2026-01-31").exit_code, 0);
-  ASSERT_EQ(run("study table.csv --motion flexion --out out").exit_code, 0);
+  done("study table.csv --motion flexion --out once --crate 2026-01-31");
+  done("study table.csv --motion flexion --out out");
   EXPECT_FALSE(fs::exists(here / "out/ro-crate-metadata.json"));
   const Ran again = run("study table.csv --motion flexion --out out --crate 2026-01-31");
-  EXPECT_NE(again.err.find("is there already"), again.err.npos) << again.err;
-  EXPECT_NE(again.err.find("wrote out/ro-crate-metadata.json"), again.err.npos) << again.err;
-  EXPECT_EQ(text("out/ro-crate-metadata.json"), text("once/ro-crate-metadata.json"));
-  ASSERT_EQ(run("study table.csv --motion flexion --out out").exit_code, 0);
+  EXPECT_TRUE(says(again.err, "is there already"));
+  EXPECT_TRUE(says(again.err, "wrote out/ro-crate-metadata.json"));
+  EXPECT_EQ(text_of("out/ro-crate-metadata.json"), text_of("once/ro-crate-metadata.json"));
+  done("study table.csv --motion flexion --out out");
   EXPECT_TRUE(fs::exists(here / "out/ro-crate-metadata.json")) << "of the same answer";
 }
 
 TEST_F(Crate, OfAPatientNamesEveryFolder) {
   sample_into(here / "bones", "hip --scenario 1");
-  ASSERT_EQ(
-      run("hip bones/hip_bone.ply bones/femur.ply --samples 0 --out patient --crate 2026-01-31").exit_code,
-      0);
+  done("hip bones/hip_bone.ply bones/femur.ply --samples 0 --out patient --crate 2026-01-31");
   expect_all_files("patient");
   expect_digests("patient", "");
   EXPECT_EQ(inputs(crate("patient")), (Names{"bones/hip_bone.ply", "bones/femur.ply"}));
@@ -162,15 +143,14 @@ TEST_F(Crate, WithoutAFolderOrADayIsRefusedBeforeTheWork) {
     for (const char* command : {"rom hip1.toml --out out", "study table.csv --out out", "merge out",
                                 "hip post1.ply arm.ply --out out"})
       expect_refusal(run(fmt::format("{} --crate {}", command, date)), 2, "is no day", command);
-  expect_refusal(run("rom hip1.toml --crate 2026-01-31"), 2, "--out", "no folder");
-  expect_refusal(run("study table.csv --out out --shard 1/2 --crate 2026-01-31"), 2, "condyle merge",
-                 "a shard");
+  expect_refused(2, "rom hip1.toml --crate 2026-01-31", "--out");
+  expect_refused(2, "study table.csv --out out --shard 1/2 --crate 2026-01-31", "condyle merge");
   EXPECT_FALSE(fs::exists(here / "out"));
 }
 
 TEST_F(Crate, HasOneEntityForFilesOfOneContentAndNamesAsUrisHaveThem) {
   fs::create_directory(here / "a folder");
-  std::ofstream(here / "a folder/50 %.csv") << "x\n";
+  write("a folder/50 %.csv", "x\n");
   const std::string digest(64, 'a');
   const io::CrateRun asked{"2026-01-31",
                            "condyle rom",

@@ -1,56 +1,32 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 /// The line of an error begins with the file that is wrong: a script that asks for many joints has nothing else to go by.
 
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A body that hangs from the joint centre, and a post in front of it.
-class ErrorLines : public ::testing::Test {
+class ErrorLines : public ArmAndPost {
  protected:
   void SetUp() override {
-    const TriMesh arm = box({-1, -100, -2}, {1, -10, 2});
-    io::write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    io::write_mesh(folder / "arm.ply", arm);
-    io::write_mesh(folder / "open.ply", without_triangle(arm));
-    io::write_mesh(folder / "met.ply", box({39, -100, -2}, {41, -10, 2}));
+    ArmAndPost::SetUp();
+    io::write_mesh(here / "open.ply", without_triangle(arm));
+    io::write_mesh(here / "met.ply", box({39, -100, -2}, {41, -10, 2}));
     for (const char* mobile : {"arm", "open", "met"}) write_joint(mobile);
   }
   static TriMesh without_triangle(TriMesh mesh) {
     mesh.triangles.pop_back();
     return mesh;
   }
-  void write(const std::string& name, std::string_view text) const { std::ofstream(folder / name) << text; }
   void write_joint(const std::string& mobile) const {
-    write(
-        mobile + ".toml",
-        "condyle = 1\nname = \"" + mobile +
-            "\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"post.ply\"\n[mobile]\n"
-            "mesh = \"" +
-            mobile + ".ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
+    write(mobile + ".toml", text_of_joint({.mobile = mobile + ".ply", .name = mobile}));
   }
   void expect_begins(const std::string& arguments, int exit_code, const std::string& beginning) const {
-    const Ran ran = run_condyle(folder.path(), arguments);
+    const Ran ran = run(arguments);
     EXPECT_EQ(ran.exit_code, exit_code) << arguments << "\n" << ran.err;
     const std::string line = without_notes(ran.err);
     EXPECT_TRUE(is_one_error_line(line)) << arguments << "\n" << ran.err;
     EXPECT_TRUE(line.starts_with("condyle: " + beginning)) << arguments << "\n" << line;
   }
-
-  const TemporaryFolder folder;
 };
 
 TEST_F(ErrorLines, OfAMeshThatIsUnfitBeginWithTheJointFile) {
@@ -70,7 +46,7 @@ TEST_F(ErrorLines, ShowLettersOfEveryScriptAsTheyAre) {
   write_joint("fémur_大腿骨");
   const std::string name = "fémur_大腿骨.toml";
   expect_begins("rom " + name, 3, name + ": mobile.mesh: there is no file ");
-  EXPECT_NE(run_condyle(folder.path(), "rom " + name).err.find("fémur_大腿骨.ply"), std::string::npos);
+  EXPECT_TRUE(says(run("rom " + name).err, "fémur_大腿骨.ply"));
   write("schräg.obj", "v 0 0 müde\n");
   expect_begins("inspect schräg.obj", 3, "schräg.obj: line 1: 'müde' should be a coordinate");
   write("latin.obj",
@@ -91,12 +67,12 @@ TEST_F(ErrorLines, HaveABoundWhateverTheyQuote) {
              "rom " + word + ".toml", "rom arm.toml --motion " + word, "rom arm.toml --" + word, word,
              "depth arm.toml --pose " + word + "=1", "depth arm.toml --set " + word + "=1",
              "rom arm.toml --out " + word, "rom arm.toml --bearing " + word, "merge " + word}) {
-      const Ran ran = run_condyle(folder.path(), arguments);
+      const Ran ran = run(arguments);
       EXPECT_NE(ran.exit_code, 0) << arguments.substr(0, 40);
       const std::string line = without_notes(ran.err);
       EXPECT_TRUE(is_one_error_line(line)) << line;
       EXPECT_LE(line.size(), 2'020u) << line;
-      EXPECT_EQ(line.find("??"), line.npos) << line;
+      EXPECT_FALSE(says(line, "??"));
     }
 }
 
@@ -117,13 +93,11 @@ TEST_F(ErrorLines, OfTwistedPolygonsSayHowTheyAreRead) {
       "v 0 0 -1\nv 9 0 1\nv 9 9 -1\nv 6 9 1\nv 6 3 -1\nv 3 3 1\nv 3 9 -1\nv 0 9 1\nf 1 2 3 4 5 6 7 8\n";
   write("comb.obj", comb);
   expect_begins("inspect comb.obj --polygons split", 3, "comb.obj: face 0 of 8 corners is twisted");
-  const Ran ran = run_condyle(folder.path(), "inspect comb.obj --polygons guess");
+  const Ran ran = run("inspect comb.obj --polygons guess");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_NE(
-      ran.out.find(
-          "split 1 polygon into triangles, 1 of them by a guess: their corners are up to 1 off one plane"),
-      std::string::npos)
-      << ran.out;
+  EXPECT_TRUE(
+      says(ran.out,
+           "split 1 polygon into triangles, 1 of them by a guess: their corners are up to 1 off one plane"));
 }
 
 TEST_F(ErrorLines, OfPolygonsAreAvoidedByTheirRuleInAJointFileToo) {
@@ -132,27 +106,16 @@ TEST_F(ErrorLines, OfPolygonsAreAvoidedByTheirRuleInAJointFileToo) {
         "50\nv 40 -80 50\n"
         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
   expect_begins("init quads.obj arm.ply", 3, "quads.obj: line 9: face 0 has 4 corners");
-  const Ran proposed = run_condyle(folder.path(), "init quads.obj arm.ply --polygons split");
+  const Ran proposed = run("init quads.obj arm.ply --polygons split");
   EXPECT_EQ(proposed.exit_code, 0) << proposed.err;
-  EXPECT_NE(proposed.out.find("mesh = 'quads.obj'\npolygons = \"split\"\n"), std::string::npos)
-      << proposed.out;
-  const auto joint = [&](const char* rule) {
-    write(std::string(rule) + ".toml",
-          std::string("condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"right\"\nunits = "
-                      "\"mm\"\n[fixed]\nmesh = \"quads.obj\"\n"
-                      "polygons = \"") +
-              rule +
-              "\"\n[mobile]\nmesh = \"arm.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
-              "superior = [0, 1, 0]\n");
-    return run_condyle(folder.path(), std::string("rom ") + rule + ".toml --motion flexion").out;
+  EXPECT_TRUE(says(proposed.out, "mesh = 'quads.obj'\npolygons = \"split\"\n"));
+  const auto joint = [&](const std::string& rule) {
+    write("quads.toml", text_of_joint({.fixed = "mesh = \"quads.obj\"\npolygons = \"" + rule + "\""}));
+    return done("rom quads.toml --motion flexion").out;
   };
   EXPECT_EQ(joint("guess"), joint("split")) << "of flat polygons";
-  write("mark.toml",
-        "\xEF\xBB\xBF"
-        "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = "
-        "\"post.ply\"\n[mobile]\nmesh = \"arm.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
-        "superior = [0, 1, 0]\n");
-  EXPECT_EQ(run_condyle(folder.path(), "frame mark.toml").exit_code, 0) << "a byte order mark";
+  write("mark.toml", "\xEF\xBB\xBF" + text_of_joint({}));
+  EXPECT_EQ(run("frame mark.toml").exit_code, 0) << "a byte order mark";
 }
 
 TEST_F(ErrorLines, OfAStudyBeginWithTheJointFileOrTheLine) {

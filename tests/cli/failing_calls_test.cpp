@@ -1,28 +1,15 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cerrno>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 /// Each call that looks at an input fails in turn for once (preload/failing_calls.cpp): no answer is kept that a later run would not
 /// give.
 
 namespace condyle::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Reading {
   const char *name, *command;
@@ -59,12 +46,8 @@ class FailingCalls : public ::testing::TestWithParam<Reading> {
     std::ofstream(inputs / "daily.csv") << "name,motion,reach_deg\nsitting,flexion,110\n";
     std::ofstream(inputs / "h.txt") << "2 2 2 2 2 2 2 2\n";
     std::ofstream(inputs / "joint.toml")
-        << "condyle = 1\nname = \"arm and post\"\nkind = \"ball\"\nside = \"right\"\nunits = "
-           "\"mm\"\n[fixed]\n"
-           "mesh = \"post.ply\"\n[mobile]\nmesh = \"arm.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, "
-           "0, 0]\n"
-           "superior = [0, 1, 0]\n[contact.mobile]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\n"
-           "thickness_file = \"h.txt\"\n";
+        << text_of_joint({.more = "[contact.mobile]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\n"
+                                  "thickness_file = \"h.txt\"\n"});
     std::ofstream(inputs / "two.csv") << "id,joint\na,joint.toml\nb,nothere.toml\n";
     ASSERT_EQ(run_condyle(here, GetParam().command).exit_code, 0);
     fs::rename(here / "out", here / "whole");

@@ -1,35 +1,17 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "support/temporary_folder.hpp"
 
 /// `condyle implant` says what answer_implant() answers, and writes a joint on which every command runs.
 
 namespace condyle::test {
 namespace {
 
-using Json = nlohmann::json;
-
-class ImplantCommand : public ::testing::Test {
+class ImplantCommand : public CommandTest {
  protected:
-  void SetUp() override { ASSERT_EQ(run("sample hip --scenario 1 --out .").exit_code, 0); }
-  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
-  Json answer(const std::string& arguments) const {
-    const Ran ran = run(arguments + " --json");
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    return Json::parse(ran.out);
-  }
-
-  const TemporaryFolder folder;
+  void SetUp() override { sample_into(here, "hip --scenario 1"); }
 };
 
 TEST_F(ImplantCommand, SaysWhatTheLibraryAnswers) {
@@ -47,31 +29,29 @@ TEST_F(ImplantCommand, SaysWhatTheLibraryAnswers) {
   EXPECT_EQ(json["of_bones"], Json({"neck_shaft", "stem_version", "cup_radius"}));
   EXPECT_EQ(json["cut"]["removed_mm3"], expected.removed_mm3);
   EXPECT_EQ(json["room_mm"], expected.room_mm);
-  EXPECT_NEAR(json["cup"]["anatomic"]["inclination_deg"].get<double>(), 45, 1e-9);
+  EXPECT_NEAR(json["cup"]["anatomic"]["inclination_deg"], 45, 1e-9);
   EXPECT_EQ(json["half_angle_deg"], expected.pair->half_angle.degrees());
   ASSERT_EQ(json["implant_notes"].size(), expected.notes.size());
   std::string notes;
   for (std::size_t i = 0; i < expected.notes.size(); ++i) {
     EXPECT_EQ(json["implant_notes"][i]["text"], expected.notes[i].text);
-    EXPECT_EQ(text.out.find(expected.notes[i].text), text.out.npos) << text.out;
+    EXPECT_FALSE(says(text.out, expected.notes[i].text));
     notes += fmt::format("condyle: note: {}: {}\n", name_of(expected.notes[i].code), expected.notes[i].text);
   }
   EXPECT_EQ(text.err, notes);
 }
 
 TEST_F(ImplantCommand, WritesAJointThatHasTheClosedFormAndTurnsItsParts) {
-  const Ran ran = run("implant hip.toml --out thr");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  done("implant hip.toml --out thr");
   for (const char* name : {"implant.json", "hip.toml", "fixed_bone.ply", "mobile_bone.ply", "liner.ply",
                            "head.ply", "neck.ply", "stem.ply"})
-    EXPECT_TRUE(std::filesystem::exists(folder / "thr" / name)) << name;
+    EXPECT_TRUE(fs::exists(folder / "thr" / name)) << name;
   for (const char* set : {"", " --set \"cup.inclination=42 stem.version=10\""}) {
     const Json rom = answer(std::string("rom thr/hip.toml") + set);
     std::size_t on_liner = 0;
     for (const Json& motion : rom["motions"])
       if (motion["reason"] == "contact" && motion["features"]["mobile"]["part"] == "neck") {
-        EXPECT_NEAR(motion["limit_deg"].get<double>(), motion["closed_form"]["limit_deg"].get<double>(), 0.01)
-            << motion["motion"];
+        EXPECT_NEAR(motion["limit_deg"], motion["closed_form"]["limit_deg"], 0.01) << motion["motion"];
         ++on_liner;
       }
     EXPECT_GE(on_liner, 3u) << set;
@@ -79,7 +59,7 @@ TEST_F(ImplantCommand, WritesAJointThatHasTheClosedFormAndTurnsItsParts) {
 }
 
 TEST_F(ImplantCommand, MeasuresOfTheJointSayThatTheyAreOfItsParts) {
-  ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
+  done("implant hip.toml --out thr");
   const Json measured = answer("measure thr/hip.toml");
   std::size_t with_value = 0;
   for (const Json& measure : measured["measures"]) {
@@ -89,11 +69,11 @@ TEST_F(ImplantCommand, MeasuresOfTheJointSayThatTheyAreOfItsParts) {
     with_value += !measure["value"].is_null();
   }
   EXPECT_GT(with_value, 0u);
-  EXPECT_EQ(answer("measure hip.toml").dump().find("of the implant"), std::string::npos);
+  EXPECT_FALSE(says(answer("measure hip.toml").dump(), "of the implant"));
 }
 
 TEST_F(ImplantCommand, KeepsTheMotionsOfTheJointFile) {
-  ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
+  done("implant hip.toml --out thr");
   const io::JointFile file = io::read_joint_file(folder / "thr/hip.toml");
   ASSERT_TRUE(file.implant);
   EXPECT_EQ(file.uncertainty.centre_mm, 0);
@@ -108,9 +88,11 @@ TEST_F(ImplantCommand, KeepsTheMotionsOfTheJointFile) {
 TEST_F(ImplantCommand, ABandMovesTheSurfacesOfBonesAndNoneOfTheImplant) {
   for (const double voxel : {0.0, 1.2}) {
     if (voxel > 0)
-      std::ofstream(folder / "hip.toml", std::ios::app) << fmt::format(
-          "\n[fixed.image]\nvoxel_i = [{0}, 0, 0]\nvoxel_j = [0, {0}, 0]\nvoxel_k = [0, 0, {0}]\n", voxel);
-    ASSERT_EQ(run(fmt::format("implant hip.toml --out thr_{}", voxel > 0)).exit_code, 0);
+      append("hip.toml",
+             fmt::format(
+                 "\n[fixed.image]\nvoxel_i = [{0}, 0, 0]\nvoxel_j = [0, {0}, 0]\nvoxel_k = [0, 0, {0}]\n",
+                 voxel));
+    done(fmt::format("implant hip.toml --out thr_{}", voxel > 0));
     const std::string file = fmt::format("thr_{}/hip.toml", voxel > 0);
     EXPECT_EQ(io::read_joint_file(folder / file).fixed.image.has_value(), voxel > 0);
     const Json rom = answer("rom " + file + " --band=20");
@@ -132,7 +114,7 @@ TEST_F(ImplantCommand, ABandMovesTheSurfacesOfBonesAndNoneOfTheImplant) {
 }
 
 TEST_F(ImplantCommand, RefusesInOneLineAndWritesNothing) {
-  ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
+  done("implant hip.toml --out thr");
   for (const auto& [arguments, code, says] :
        {std::tuple{"hip.toml --as-rim --inclination 40", 2, "--inclination"},
         {"hip.toml --centre middle", 2, "--centre"},
@@ -141,7 +123,7 @@ TEST_F(ImplantCommand, RefusesInOneLineAndWritesNothing) {
         {"thr/hip.toml", 2, "has an implant already"},
         {"missing.toml", 3, "missing.toml"}})
     expect_refusal(run(std::string("implant ") + arguments + " --out none"), code, says, arguments);
-  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+  EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
 }  // namespace

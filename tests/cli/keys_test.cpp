@@ -1,33 +1,17 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "io/file/whole_file.hpp"
 #include "support/small_cohort.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 /// What lies there is an answer of the same question: every option of `study` and `sweep` changed in turn, as `condyle help` lists them,
 /// and every file that they read.
 
 namespace condyle::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The command's long options.
 std::set<std::string> options_of(const fs::path& folder, const std::string& command) {
@@ -44,10 +28,10 @@ struct Changed {
   std::string before, after;
 };
 
-class Keys : public ::testing::Test {
+class Keys : public CommandTest {
  protected:
   bool is_there(const std::string& arguments) const {
-    const Ran ran = run_condyle(here, arguments);
+    const Ran ran = run(arguments);
     EXPECT_NE(ran.exit_code, 2) << arguments << ran.err;
     return ran.err.find("is there already") != ran.err.npos;
   }
@@ -89,9 +73,6 @@ class Keys : public ::testing::Test {
     std::ofstream(file, std::ios::binary) << before;
     EXPECT_FALSE(is_there(command)) << file << "\n" << command;
   }
-
-  const TemporaryFolder folder;
-  const fs::path here = folder / "in";
 };
 
 TEST_F(Keys, OfAStudyHaveEveryOption) {
@@ -135,8 +116,7 @@ TEST_F(Keys, OfAStudyHaveEveryOption) {
 
 /// A joint of arms has no bearing surface to measure from.
 TEST_F(Keys, OfAStudyHaveTheDistanceWithinWhichBoneIsCut) {
-  fs::create_directory(here);
-  std::ofstream(here / "hips.csv") << "id,sample,side\na,1,right\n";
+  write("hips.csv", "id,sample,side\na,1,right\n");
   const std::string cut =
       "study hips.csv --motion internal_rotation_at_90_flexion --resect internal_rotation_at_90_flexion=30 "
       "--edge 5 "
@@ -148,10 +128,9 @@ TEST_F(Keys, OfAStudyHaveTheDistanceWithinWhichBoneIsCut) {
 }
 
 TEST_F(Keys, OfASweepHaveEveryOption) {
-  fs::create_directory(here);
   sample_into(here, "replacement --facets 24");
   const auto write_targets = [&](const char* name, int reach) {
-    std::ofstream(here / name) << "name,motion,reach_deg\nsitting,flexion," << reach << "\n";
+    write(name, fmt::format("name,motion,reach_deg\nsitting,flexion,{}\n", reach));
   };
   write_targets("daily.csv", 110);
   write_targets("other.csv", 111);
@@ -195,38 +174,39 @@ TEST_F(Keys, OfAStudyHaveEveryFileThatItsLayersAndMotionsAreReadFrom) {
   const SmallCohort cohort(here, 1);
   io::write_mesh(here / "behind.ply", box({-0.5, -100, -1}, {0.5, -10, 1}));
   io::write_mesh(here / "other.ply", box({-0.4, -100, -1}, {0.5, -10, 1}));
-  std::ofstream(here / "h.txt") << repeated_lines(8, "2");
-  std::ofstream(here / "hip1.toml", std::ios::app)
-      << "[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nthickness_file = \"h.txt\"\n"
+  write("h.txt", repeated_lines(8, "2"));
+  append("hip1.toml",
+         "[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nthickness_file = \"h.txt\"\n"
          "[contact.mobile]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nbehind = \"behind.ply\"\n"
-         "thickness = 1\n";
-  std::ofstream(here / "curves.csv") << "time,flexion_deg\n0,0\n1,20\n";
-  std::ofstream(here / "one.csv") << "id,joint,follow\na,hip1.toml,\n";
-  std::ofstream(here / "follow.csv") << "id,joint,follow\na,hip1.toml,curves.csv\n";
-  std::ofstream(here / "meshes.csv") << "id,fixed,mobile,side\na,post1.ply,arm.ply,right\n";
-  const std::string other_mesh = io::read_whole_file(here / "other.ply"),
+         "thickness = 1\n");
+  write("curves.csv", "time,flexion_deg\n0,0\n1,20\n");
+  write("one.csv", "id,joint,follow\na,hip1.toml,\n");
+  write("follow.csv", "id,joint,follow\na,hip1.toml,curves.csv\n");
+  write("meshes.csv", "id,fixed,mobile,side\na,post1.ply,arm.ply,right\n");
+  const std::string other_mesh = text_of("other.ply"),
                     loaded = "study one.csv --motion flexion --load '' --out out";
   expect_read(loaded, here / "h.txt", repeated_lines(8, "3"));
   expect_read(loaded, here / "behind.ply", other_mesh);
   expect_read(loaded, here / "arm.ply", other_mesh);
   expect_read(loaded, here / "post1.ply", other_mesh);
-  expect_read(loaded, here / "hip1.toml", io::read_whole_file(here / "hip1.toml") + "# more\n");
+  expect_read(loaded, here / "hip1.toml", text_of("hip1.toml") + "# more\n");
   expect_read("study follow.csv --out out", here / "curves.csv", "time,flexion_deg\n0,0\n1,21\n");
   expect_read("study meshes.csv --out out", here / "arm.ply", other_mesh);
 }
 
 TEST_F(Keys, OfAStudyHaveVoxelsThatLieInAFileOfTheirOwn) {
-  fs::create_directory(here);
   std::string voxels(4 * 4 * 4, '\0');
   voxels[21] = 1, voxels[42] = 2;
   std::string other = voxels;
   other[22] = 1;
-  std::ofstream(here / "a.nhdr") << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n"
-                                    "sizes: 4 4 4\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
-                                    "space origin: (0,0,0)\nencoding: raw\ndata file: a.raw\n";
-  std::ofstream(here / "a.mhd") << "ObjectType = Image\nNDims = 3\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
-                                   "Offset = 0 0 0\nElementSpacing = 1 1 1\nDimSize = 4 4 4\n"
-                                   "ElementType = MET_UCHAR\nElementDataFile = a.raw\n";
+  write("a.nhdr",
+        "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n"
+        "sizes: 4 4 4\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+        "space origin: (0,0,0)\nencoding: raw\ndata file: a.raw\n");
+  write("a.mhd",
+        "ObjectType = Image\nNDims = 3\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+        "Offset = 0 0 0\nElementSpacing = 1 1 1\nDimSize = 4 4 4\n"
+        "ElementType = MET_UCHAR\nElementDataFile = a.raw\n");
   std::string header(348, '\0');
   const auto put = [&](std::size_t at, auto value) {
     header.replace(at, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
@@ -239,23 +219,23 @@ TEST_F(Keys, OfAStudyHaveVoxelsThatLieInAFileOfTheirOwn) {
   put(254, std::int16_t{1});
   for (std::size_t k = 0; k < 3; ++k) put(280 + 16 * k + 4 * k, 1.0f);
   header.replace(344, 3, "ni1");
-  std::ofstream(here / "a.hdr", std::ios::binary) << header;
+  write("a.hdr", header);
   for (const auto& [labels, data] : {std::pair("a.nhdr", "a.raw"), {"a.mhd", "a.raw"}, {"a.hdr", "a.img"}}) {
-    std::ofstream(here / data, std::ios::binary) << voxels;
-    std::ofstream(here / "table.csv") << "id,labels,fixed_label,mobile_label\na," << labels << ",1,2\n";
-    const Ran inspected = run_condyle(here, std::string("inspect ") + labels);
+    write(data, voxels);
+    write("table.csv", fmt::format("id,labels,fixed_label,mobile_label\na,{},1,2\n", labels));
+    const Ran inspected = run(std::string("inspect ") + labels);
     EXPECT_EQ(inspected.exit_code, 0) << inspected.err;
     expect_read("study table.csv --out out", here / data, other);
     expect_read("study table.csv --out out", here / labels, "x");
     // And no result takes their place.
     fs::rename(here / data, here / "hips.csv");
-    std::string text = io::read_whole_file(here / labels);
+    std::string text = text_of(labels);
     if (const std::size_t at = text.find(data); at != text.npos) {
       text.replace(at, 5, "hips.csv");
-      std::ofstream(here / labels, std::ios::binary) << text;
-      expect_refusal(run_condyle(here, "study table.csv --out ."), 3,
+      write(labels, text);
+      expect_refusal(run("study table.csv --out ."), 3,
                      "./hips.csv: is read for this answer, which would be written over it", labels);
-      EXPECT_EQ(io::read_whole_file(here / "hips.csv"), voxels) << labels;
+      EXPECT_EQ(text_of("hips.csv"), voxels) << labels;
     }
     fs::rename(here / "hips.csv", here / data);
   }
@@ -263,16 +243,16 @@ TEST_F(Keys, OfAStudyHaveVoxelsThatLieInAFileOfTheirOwn) {
 
 TEST_F(Keys, OfAnAnswerAreInItsProvenance) {
   const SmallCohort cohort(here, 1);
-  std::ofstream(here / "h.txt") << repeated_lines(8, "2");
-  std::ofstream(here / "hip1.toml", std::ios::app)
-      << "[contact.mobile]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nthickness_file = \"h.txt\"\n";
+  write("h.txt", repeated_lines(8, "2"));
+  append("hip1.toml",
+         "[contact.mobile]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nthickness_file = \"h.txt\"\n");
   const auto others_of = [&](const std::string& arguments) {
-    const Ran ran = run_condyle(here, arguments + " --json");
+    const Ran ran = run(arguments + " --json");
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    return nlohmann::json::parse(ran.out).at("provenance").value("other_files", nlohmann::json());
+    return Json::parse(ran.out).at("provenance").value("other_files", Json());
   };
   EXPECT_EQ(others_of("load hip1.toml"),
-            nlohmann::json({{{"path", "h.txt"}, {"sha256", io::digest_of(repeated_lines(8, "2")).sha256}}}));
+            Json({{{"path", "h.txt"}, {"sha256", io::digest_of(repeated_lines(8, "2")).sha256}}}));
   EXPECT_TRUE(others_of("rom hip1.toml --motion flexion").is_null()) << "no layer is read for limits";
 }
 
@@ -295,39 +275,38 @@ TEST_F(Keys, OfAStudyHaveTheEnvironmentOfItsPaths) {
 }
 
 TEST_F(Keys, OfASweepHaveEveryFileAndItsShardsDoNotMergeWithOthers) {
-  fs::create_directory(here);
   sample_into(here, "replacement --facets 24");
-  std::ofstream(here / "daily.csv") << "name,motion,reach_deg\nsitting,flexion,110\n";
+  write("daily.csv", "name,motion,reach_deg\nsitting,flexion,110\n");
   const TriMesh head = io::read_mesh(here / "head.ply").mesh;
   TriMesh behind = head;
   io::write_mesh(here / "behind.ply", behind);
   behind.vertices.set(0, Vec3(1.01 * behind.vertices[0]));
   io::write_mesh(here / "other.ply", behind);
-  std::ofstream(here / "h.txt") << repeated_lines(head.vertices.size(), "2");
+  write("h.txt", repeated_lines(head.vertices.size(), "2"));
   // What lies behind a mesh that a part moves would not move with it: the hip bone stays.
-  std::ofstream(here / "hip.toml", std::ios::app)
-      << "\n[contact]\nfixed_part = \"hip_bone\"\nmobile_part = \"head\"\n"
+  append("hip.toml",
+         "\n[contact]\nfixed_part = \"hip_bone\"\nmobile_part = \"head\"\n"
          "[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nbehind = \"behind.ply\"\nthickness "
          "= 1\n"
-         "[contact.mobile]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nthickness_file = \"h.txt\"\n";
+         "[contact.mobile]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.3\nthickness_file = \"h.txt\"\n");
   const std::string sweep =
       "sweep hip.toml --vary 'cup.inclination=40:45:5 cup.anteversion=10:15:5' --targets daily.csv --load "
       "flexion=20 --out ";
-  const Ran ran = run_condyle(here, sweep + "out");
+  const Ran ran = run(sweep + "out");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   expect_read(sweep + "out", here / "h.txt", repeated_lines(head.vertices.size(), "3"));
-  expect_read(sweep + "out", here / "behind.ply", io::read_whole_file(here / "other.ply"));
+  expect_read(sweep + "out", here / "behind.ply", text_of("other.ply"));
   expect_read(sweep + "out", here / "daily.csv", "name,motion,reach_deg\nsitting,flexion,100\n");
-  expect_read(sweep + "out", here / "stem.ply", io::read_whole_file(here / "neck.ply"));
-  expect_read(sweep + "out", here / "hip.toml", io::read_whole_file(here / "hip.toml") + "# more\n");
-  ASSERT_EQ(run_condyle(here, sweep + "parts --shard 1/2").exit_code, 0);
-  std::ofstream(here / "h.txt") << repeated_lines(head.vertices.size(), "4");
-  ASSERT_EQ(run_condyle(here, sweep + "parts --shard 2/2").exit_code, 0);
-  expect_refusal(run_condyle(here, "merge parts"), 3, "2_of_2", "shards of before and after");
-  ASSERT_EQ(run_condyle(here, sweep + "parts --shard 1/2").exit_code, 0);
-  EXPECT_EQ(run_condyle(here, "merge parts").exit_code, 0);
-  std::ofstream(here / "h.txt") << repeated_lines(head.vertices.size(), "5");
-  expect_refusal(run_condyle(here, "merge parts"), 3, "h.txt: is another since", "changed after both");
+  expect_read(sweep + "out", here / "stem.ply", text_of("neck.ply"));
+  expect_read(sweep + "out", here / "hip.toml", text_of("hip.toml") + "# more\n");
+  ASSERT_EQ(run(sweep + "parts --shard 1/2").exit_code, 0);
+  write("h.txt", repeated_lines(head.vertices.size(), "4"));
+  ASSERT_EQ(run(sweep + "parts --shard 2/2").exit_code, 0);
+  expect_refused(3, "merge parts", "2_of_2");
+  ASSERT_EQ(run(sweep + "parts --shard 1/2").exit_code, 0);
+  EXPECT_EQ(run("merge parts").exit_code, 0);
+  write("h.txt", repeated_lines(head.vertices.size(), "5"));
+  expect_refused(3, "merge parts", "h.txt: is another since");
 }
 
 }  // namespace

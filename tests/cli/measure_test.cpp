@@ -1,46 +1,29 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "command.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
 
 /// `condyle measure` says what measure_hip() answers, every measure once.
 
 namespace condyle::test {
 namespace {
 
-using Json = nlohmann::json;
-
-class MeasureCommand : public ::testing::Test {
+class MeasureCommand : public CommandTest {
  protected:
-  void SetUp() override { sample_into(folder.path(), "hip"); }
-  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
-  Json answer(const std::string& arguments) const {
-    const Ran ran = run("measure hip.toml --json " + arguments);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    return Json::parse(ran.out);
-  }
+  void SetUp() override { sample_into(here, "hip"); }
+  Json measured(const std::string& arguments) const { return answer("measure hip.toml " + arguments); }
   static double value_of(const Json& json, std::string_view key) {
     for (const Json& each : json["measures"])
       if (each["key"] == key) return each["value"].get<double>();
     ADD_FAILURE() << key;
     return 0;
   }
-
-  const TemporaryFolder folder;
 };
 
 TEST_F(MeasureCommand, SaysWhatTheLibraryAnswers) {
   const measure::HipMeasures expected = measure::measure_hip(io::read_joint(folder / "hip.toml").joint);
-  const Json json = answer("");
+  const Json json = measured("");
   ASSERT_EQ(json["measures"].size(), measure::measure_definitions().size());
   for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
     const measure::MeasureDefinition& definition = measure::measure_definitions()[i];
@@ -57,12 +40,12 @@ TEST_F(MeasureCommand, SaysWhatTheLibraryAnswers) {
   EXPECT_EQ(json["rim"].size(), expected.acetabulum.rim.size());
   const std::string text = run("measure hip.toml").out;
   for (const measure::MeasureDefinition& definition : measure::measure_definitions())
-    EXPECT_NE(text.find(" " + std::string(definition.key) + " "), text.npos) << definition.key;
-  EXPECT_NE(text.find("femoral_version_deg: the mesh ends above the knee"), text.npos) << text;
+    EXPECT_TRUE(says(text, " " + std::string(definition.key) + " ")) << definition.key;
+  EXPECT_TRUE(says(text, "femoral_version_deg: the mesh ends above the knee"));
 }
 
 TEST_F(MeasureCommand, TiltsThePelvisAndNotTheFemur) {
-  const Json level = answer(""), tilted = answer("--tilt 10");
+  const Json level = measured(""), tilted = measured("--tilt 10");
   EXPECT_EQ(value_of(level, "alpha_3_deg"), value_of(tilted, "alpha_3_deg"));
   // Tilted forwards a socket comes over the head from in front: seen from above it opens less to the front.
   EXPECT_LT(value_of(tilted, "acetabular_version_deg"), value_of(level, "acetabular_version_deg") - 3);
@@ -85,12 +68,12 @@ TEST_F(MeasureCommand, NamesTheFrameOfEveryAngleThatTurnsWithThePelvis) {
   by_landmarks(folder, "plane.toml",
                spines + fmt::format("pubic_symphysis = [{}, -90, 0]\n", 90 * std::tan(tilt)));
   by_landmarks(folder, "isb.toml", spines + "right_psis = [-150, 0, 45]\nleft_psis = [-150, 0, -45]\n");
-  const Json scanned = answer(""), tilted = answer("--tilt 10");
-  const Json plane = Json::parse(run("measure plane.toml --json").out);
+  const Json scanned = measured(""), tilted = measured("--tilt 10");
+  const Json plane = answer("measure plane.toml");
   EXPECT_EQ(scanned["pelvis_frame"], "as scanned");
   EXPECT_EQ(tilted["pelvis_frame"], "as scanned, tilt 10 deg given");
   EXPECT_EQ(plane["pelvis_frame"], "anterior pelvic plane");
-  EXPECT_EQ(Json::parse(run("measure isb.toml --json --tilt -5").out)["pelvis_frame"],
+  EXPECT_EQ(answer("measure isb.toml --tilt -5")["pelvis_frame"],
             "plane of ASIS and PSIS, tilt -5 deg given");
   std::size_t turning = 0;
   for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
@@ -102,23 +85,21 @@ TEST_F(MeasureCommand, NamesTheFrameOfEveryAngleThatTurnsWithThePelvis) {
     ++turning;
     EXPECT_EQ(at["frame"], tilted["pelvis_frame"]);
     EXPECT_EQ(in_plane["frame"], "anterior pelvic plane");
-    EXPECT_NEAR(at["value"].get<double>(), in_plane["value"].get<double>(), 1e-6) << at["key"];
+    EXPECT_NEAR(at["value"], in_plane["value"], 1e-6) << at["key"];
   }
   EXPECT_EQ(turning, 11u);
-  EXPECT_NE(run("measure hip.toml").out.find("pelvis: as scanned: the pelvis may have lain turned"),
-            std::string::npos);
-  EXPECT_NE(run("measure plane.toml").out.find("pelvis: anterior pelvic plane\n"), std::string::npos);
+  EXPECT_TRUE(says(run("measure hip.toml").out, "pelvis: as scanned: the pelvis may have lain turned"));
+  EXPECT_TRUE(says(run("measure plane.toml").out, "pelvis: anterior pelvic plane\n"));
 }
 
 TEST_F(MeasureCommand, SaysThatAxesOfTheFemurAreNotThePelvis) {
   by_landmarks(folder, "femur.toml",
                "medial_epicondyle = [0, -400, -40]\nlateral_epicondyle = [0, -400, 40]\n");
-  EXPECT_EQ(Json::parse(run("measure femur.toml --json").out)["pelvis_frame"],
-            "the femur's epicondyles, not the pelvis");
+  EXPECT_EQ(answer("measure femur.toml")["pelvis_frame"], "the femur's epicondyles, not the pelvis");
 }
 
 TEST_F(MeasureCommand, GivesTheLibrarysBands) {
-  const Json json = answer("--band=20 --seed 3");
+  const Json json = measured("--band=20 --seed 3");
   const auto bands =
       measure::measure_bands(io::read_joint(folder / "hip.toml").joint, {}, {.samples = 20, .seed = 3});
   for (std::size_t i = 0; i < bands.size(); ++i) {
@@ -127,32 +108,22 @@ TEST_F(MeasureCommand, GivesTheLibrarysBands) {
     EXPECT_EQ(band["p95"], bands[i].p95 ? Json(*bands[i].p95) : Json(nullptr));
     EXPECT_EQ(band["samples_without_value"], bands[i].samples_without_value);
   }
-  EXPECT_NE(run("measure hip.toml --band=20").out.find("5 to 95 % of 20 joints"), std::string::npos);
-  EXPECT_TRUE(answer("")["band"].is_null());
+  EXPECT_TRUE(says(run("measure hip.toml --band=20").out, "5 to 95 % of 20 joints"));
+  EXPECT_TRUE(measured("")["band"].is_null());
 }
 
 TEST_F(MeasureCommand, WritesTables) {
-  ASSERT_EQ(run("measure hip.toml --out out").exit_code, 0);
-  const auto rows = [&](const char* name) {
-    std::istringstream text(io::read_whole_file(folder / name));
-    std::size_t count = 0;
-    for (std::string line; std::getline(text, line);) count += !line.starts_with('#');
-    return count - 1;
-  };
+  done("measure hip.toml --out out");
+  const auto rows = [&](const char* name) { return lines_of(text_of(name)).size() - 1; };
   EXPECT_EQ(rows("out/measures.csv"), measure::measure_definitions().size());
   EXPECT_GT(rows("out/neck.csv"), 30u);
   EXPECT_GT(rows("out/rim.csv"), 30u);
-  EXPECT_EQ(Json::parse(io::read_whole_file(folder / "out/measures.json"))["measures"],
-            answer("")["measures"]);
+  EXPECT_EQ(json_of("out/measures.json")["measures"], measured("")["measures"]);
 }
 
 TEST_F(MeasureCommand, RefusesWhatIsNoHip) {
-  std::string text = io::read_whole_file(folder / "hip.toml");
-  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"");
-  std::ofstream(folder / "hinge.toml") << text;
-  const Ran ran = run("measure hinge.toml");
-  EXPECT_EQ(ran.exit_code, 2) << ran.err;
-  EXPECT_NE(ran.err.find("hip"), ran.err.npos) << ran.err;
+  write_edited("hinge.toml", "hip.toml", "kind = \"ball\"", "kind = \"hinge\"");
+  expect_refused(2, "measure hinge.toml", "hip");
 }
 
 }  // namespace

@@ -1,18 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "condyle/io/mesh_file.hpp"
 #include "motion_scene.hpp"
 #include "support/knee_model.hpp"
 #include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
 
 /// Models of OpenSim on the command line.
 
@@ -28,27 +20,22 @@ std::optional<fs::path> shared_model(const char* name) {
 struct PublishedContact {
   const char *joint, *by_hand, *mobile;
 };
-class PublishedModel : public ::testing::TestWithParam<PublishedContact> {};
+class PublishedModel : public CommandTest, public ::testing::WithParamInterface<PublishedContact> {};
 
 TEST_P(PublishedModel, GivesTheNumbersOfAJointFileByHand) {
   if (!has_knee_model()) GTEST_SKIP() << "the shared knee or its model is missing";
   ::setenv("CONDYLE_DATA", fs::absolute(shared_data_folder()).c_str(), 1);
-  const TemporaryFolder folder;
-  write_knee_model(folder.path(), {"femur", GetParam().mobile});
+  write_knee_model(here, {"femur", GetParam().mobile});
   const std::string states =
       fs::absolute(shared_data_folder() / "knee_lenhart2015_right/passive_flexion_states.sto").string();
-  const Ran made = run_condyle(
-      folder.path(), fmt::format("init lenhart2015.osim --joint {} -o joint.toml", GetParam().joint));
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("is missing and left out"), std::string::npos) << "bones are not there";
+  const Ran made = done(fmt::format("init lenhart2015.osim --joint {} -o joint.toml", GetParam().joint));
+  EXPECT_TRUE(says(made.err, "is missing and left out")) << "bones are not there";
   const std::string question = fmt::format(" --motion {} --load --out ", states);
   for (const std::string& from :
        {std::string("joint.toml") + question + "file",
         fmt::format("lenhart2015.osim --joint {}{}model", GetParam().joint, question),
-        fmt::format("{}/{}{}hand", CONDYLE_KNEE_BY_HAND, GetParam().by_hand, question)}) {
-    const Ran ran = run_condyle(folder.path(), "motion " + from);
-    ASSERT_EQ(ran.exit_code, 0) << from << "\n" << ran.err;
-  }
+        fmt::format("{}/{}{}hand", CONDYLE_KNEE_BY_HAND, GetParam().by_hand, question)})
+    done("motion " + from);
   const NumberTable file = csv_of(folder / "file/curves.csv"), direct = csv_of(folder / "model/curves.csv"),
                     hand = csv_of(folder / "hand/curves.csv");
   EXPECT_EQ(file.rows, direct.rows);
@@ -69,59 +56,48 @@ INSTANTIATE_TEST_SUITE_P(Knee, PublishedModel,
                          [](const auto& test) { return std::string(test.param.joint); });
 
 /// A ball on a rod in a cup of a model, and the same by hand.
-class ModelHip : public testing::Test {
+class ModelHip : public CommandTest {
  protected:
   void SetUp() override {
     const auto gait = shared_model("osim_gait2354");
     if (!gait) GTEST_SKIP() << "the shared models are missing";
     gait_ = *gait;
+    model = (gait_ / "gait2354_simbody.osim").string();
   }
-  Ran run(const std::string& arguments) const { return run_condyle(folder_.path(), arguments); }
 
   /// model.toml by init, and hand.toml: the pelvis is three meshes, and numbers are those that the model's text has.
   void make_both() const {
-    const Ran made =
-        run("init " + (gait_ / "gait2354_simbody.osim").string() + " --joint hip_r -o model.toml");
-    ASSERT_EQ(made.exit_code, 0) << made.err;
-    const auto mesh = [&](const char* name) { return (gait_ / "Geometry" / name).string(); };
-    folder_.file("hand.toml", fmt::format(R"(condyle = 1
-name = "hip"
-kind = "ball"
-side = "right"
-units = "m"
-[fixed]
-meshes = [{{ name = "sacrum", mesh = "{}", polygons = "split" }}, {{ name = "right", mesh = "{}", polygons = "split" }},
-          {{ name = "left", mesh = "{}", polygons = "split" }}]
-[mobile]
-mesh = "{}"
-polygons = "split"
-pose = {{ translation = [-0.0707, -0.0661, 0.0835] }}
-[frame]
-centre = [-0.0707, -0.0661, 0.0835]
-anterior = [1, 0, 0]
-superior = [0, 1, 0]
-)",
-                                          mesh("sacrum.vtp"), mesh("pelvis.vtp"), mesh("l_pelvis.vtp"),
-                                          mesh("femur_r.vtp")));
+    done("init " + model + " --joint hip_r -o model.toml");
+    const auto split = [&](const char* name, const char* file) {
+      return fmt::format("name = \"{}\", mesh = \"{}\", polygons = \"split\"", name,
+                         (gait_ / "Geometry" / file).string());
+    };
+    const std::string at = "[-0.0707, -0.0661, 0.0835]";
+    write("hand.toml",
+          text_of_joint(
+              {.fixed = fmt::format("meshes = [{{ {} }}, {{ {} }}, {{ {} }}]", split("sacrum", "sacrum.vtp"),
+                                    split("right", "pelvis.vtp"), split("left", "l_pelvis.vtp")),
+               .mobile = fmt::format("meshes = [{{ {} }}]\npose = {{ translation = {} }}",
+                                     split("femur", "femur_r.vtp"), at),
+               .name = "hip",
+               .units = "m",
+               .centre = at}));
   }
 
   fs::path gait_;
-  TemporaryFolder folder_;
+  std::string model;
 };
 
 TEST_F(ModelHip, HasTheLimitsOfAJointFileByHand) {
   make_both();
-  const std::string question = " --accept-reference-contact --bearing count --json";
-  const Ran by_model = run("rom model.toml" + question), by_hand = run("rom hand.toml" + question);
-  ASSERT_EQ(by_model.exit_code, 0) << by_model.err;
-  ASSERT_EQ(by_hand.exit_code, 0) << by_hand.err;
-  const Json limits = Json::parse(by_model.out)["motions"], wanted = Json::parse(by_hand.out)["motions"];
+  const std::string question = " --accept-reference-contact --bearing count";
+  const Json limits = answer("rom model.toml" + question)["motions"],
+             wanted = answer("rom hand.toml" + question)["motions"];
   ASSERT_EQ(limits.size(), 12u);
   for (std::size_t i = 0; i < limits.size(); ++i) {
     EXPECT_EQ(limits[i]["reason"], wanted[i]["reason"]);
     if (!wanted[i]["limit_deg"].is_number()) continue;
-    EXPECT_NEAR(limits[i]["limit_deg"].get<double>(), wanted[i]["limit_deg"].get<double>(), 1e-6)
-        << limits[i]["name"];
+    EXPECT_NEAR(limits[i]["limit_deg"], wanted[i]["limit_deg"], 1e-6) << limits[i]["name"];
   }
 }
 
@@ -129,15 +105,13 @@ TEST_F(ModelHip, HasTheCurvesOfAWalkThatAJointFileByHandHas) {
   const fs::path walk = fs::absolute(shared_data_folder() / "motion_gait2354_walk/subject01_walk1_ik.mot");
   if (!fs::exists(walk)) GTEST_SKIP() << walk << " is missing";
   make_both();
-  std::ofstream(folder_ / "hand.toml", std::ios::app)
-      << "[recorded_motion]\nflexion = \"hip_flexion_r\"\nadduction = \"hip_adduction_r\"\n"
-         "internal_rotation = \"hip_rotation_r\"\n";
+  append("hand.toml",
+         "[recorded_motion]\nflexion = \"hip_flexion_r\"\nadduction = \"hip_adduction_r\"\n"
+         "internal_rotation = \"hip_rotation_r\"\n");
   for (const char* name : {"model", "hand"}) {
-    const Ran ran = run(fmt::format("motion {0}.toml --motion {1} --out {0}", name, walk.string()));
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    done(fmt::format("motion {0}.toml --motion {1} --out {0}", name, walk.string()));
   }
-  const NumberTable curves = csv_of(folder_ / "model/curves.csv"),
-                    wanted = csv_of(folder_ / "hand/curves.csv");
+  const NumberTable curves = csv_of(folder / "model/curves.csv"), wanted = csv_of(folder / "hand/curves.csv");
   ASSERT_EQ(curves.columns, wanted.columns);
   ASSERT_EQ(curves.rows.size(), wanted.rows.size());
   ASSERT_GT(curves.rows.size(), 60u);
@@ -153,41 +127,28 @@ TEST_F(ModelHip, HasTheCurvesOfAWalkThatAJointFileByHandHas) {
 }
 
 TEST_F(ModelHip, IsInspected) {
-  const std::string model = (gait_ / "subject01_simbody_adjusted.osim").string();
-  const Ran text = run("inspect " + model);
-  ASSERT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_NE(text.out.find("hip_l: femur_l in pelvis, ball (CustomJoint); meshes found 3 of 3 and 0 of 1"),
-            std::string::npos)
-      << text.out;
-  EXPECT_NE(text.out.find("missing: femur_l.vtp of femur_l"), std::string::npos) << text.out;
-  const Json json = Json::parse(run("inspect " + model + " --json").out)["models"][0];
+  const std::string adjusted = (gait_ / "subject01_simbody_adjusted.osim").string();
+  const Ran text = done("inspect " + adjusted);
+  EXPECT_TRUE(says(text.out, "hip_l: femur_l in pelvis, ball (CustomJoint); meshes found 3 of 3 and 0 of 1"));
+  EXPECT_TRUE(says(text.out, "missing: femur_l.vtp of femur_l"));
+  const Json json = answer("inspect " + adjusted)["models"][0];
   EXPECT_EQ(json["name"], "subject01");
   EXPECT_EQ(json["joints"].size(), 12u);
   EXPECT_EQ(json["not_used"]["Thelen2003Muscle"], 54);
 }
 
 TEST_F(ModelHip, IsARowOfAStudy) {
-  folder_.file("hips.csv",
-               fmt::format("id,opensim_model,opensim_joint\nright,{0},hip_r\nnone,{0},hip\nempty,{0},\n",
-                           (gait_ / "gait2354_simbody.osim").string()));
-  const Ran ran = run("study hips.csv --accept-reference-contact --out study");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  std::ifstream file(folder_ / "study/failures.csv");
-  const std::string failures((std::istreambuf_iterator<char>(file)), {});
-  EXPECT_NE(failures.find("no joint 'hip'"), std::string::npos) << failures;
-  EXPECT_NE(failures.find("column 'opensim_joint': a joint is needed beside opensim_model"),
-            std::string::npos)
-      << failures;
-  EXPECT_EQ(failures.find("right,"), std::string::npos) << failures;
+  write("hips.csv",
+        fmt::format("id,opensim_model,opensim_joint\nright,{0},hip_r\nnone,{0},hip\nempty,{0},\n", model));
+  done("study hips.csv --accept-reference-contact --out study");
+  const std::string failures = text_of("study/failures.csv");
+  EXPECT_TRUE(says(failures, "no joint 'hip'"));
+  EXPECT_TRUE(says(failures, "column 'opensim_joint': a joint is needed beside opensim_model"));
+  EXPECT_FALSE(says(failures, "right,"));
 }
 
 TEST_F(ModelHip, SaysInOneLineWhatIsWrong) {
-  const std::string model = (gait_ / "gait2354_simbody.osim").string();
-  const struct {
-    std::string arguments;
-    int exit_code;
-    std::string line;
-  } cases[] = {
+  const std::vector<std::tuple<std::string, int, std::string>> cases = {
       {"init " + model, 2, "--joint: is needed, one of ground_pelvis, hip_r"},
       {"init " + model + " --joint hipr", 2, "no joint 'hipr' (did you mean \"hip_r\"?)"},
       {"init " + model + " --joint hip_l -o out.toml", 3, "no mesh of body 'femur_l' was found; looked for"},
@@ -210,28 +171,21 @@ TEST_F(ModelHip, SaysInOneLineWhatIsWrong) {
       {"inspect femur.ply --geometry .", 2, "--geometry: is for models of OpenSim"},
       {"inspect nowhere.osim", 3, "nowhere.osim: no such file"},
   };
-  for (const auto& [arguments, exit_code, line] : cases) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit_code, exit_code) << arguments << "\n" << ran.err;
-    EXPECT_NE(ran.err.find(line), std::string::npos) << arguments << "\n" << ran.err;
-    EXPECT_EQ(ran.out, "") << arguments;
-  }
-  EXPECT_FALSE(fs::exists(folder_ / "out.toml")) << "no file is left that cannot be read";
+  for (const auto& [arguments, exit_code, line] : cases) expect_refused(exit_code, arguments, line);
+  EXPECT_FALSE(fs::exists(folder / "out.toml")) << "no file is left that cannot be read";
 }
 
 TEST_F(ModelHip, NotesAMotionThatLeavesItsRanges) {
-  const std::string model = (gait_ / "gait2354_simbody.osim").string();
-  folder_.file("far.mot",
-               "inDegrees=yes\nendheader\ntime hip_flexion_r hip_adduction_r hip_rotation_r knee_angle_r\n"
-               "0 0 0 0 0\n1 130 0 0 20\n2 10 0 0 -60\n");
+  write("far.mot",
+        "inDegrees=yes\nendheader\ntime hip_flexion_r hip_adduction_r hip_rotation_r knee_angle_r\n"
+        "0 0 0 0 0\n1 130 0 0 20\n2 10 0 0 -60\n");
   for (const char* joint : {"hip_r", "knee_r"}) {
-    const Ran ran = run(fmt::format("motion {} --joint {} --motion far.mot --json", model, joint));
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    EXPECT_NE(ran.err.find("condyle: note: beyond_range: "), std::string::npos) << ran.err;
+    const Ran ran = done(fmt::format("motion {} --joint {} --motion far.mot --json", model, joint));
+    EXPECT_TRUE(says(ran.err, "condyle: note: beyond_range: "));
     const Json notes = Json::parse(ran.out)["notes"];
     EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
                             [](const Json& note) { return note["code"] == "beyond_range"; }));
-    EXPECT_NE(ran.err.find("in 1 of 3 frames"), std::string::npos) << ran.err;
+    EXPECT_TRUE(says(ran.err, "in 1 of 3 frames"));
     EXPECT_EQ(run(fmt::format("motion {} --joint {} --motion far.mot --strict", model, joint)).exit_code, 4);
   }
 }

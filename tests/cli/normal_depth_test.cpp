@@ -1,31 +1,17 @@
-#include <gtest/gtest.h>
-
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "command.hpp"
 #include "condyle/angle.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "io/file/whole_file.hpp"
 #include "support/knee.hpp"
 #include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 /// `condyle depth --method normal`: meshes may be open.
 
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-using io::read_whole_file;
-
 /// A ball of radius 20 whose centre --pose y=19 has 19 above a flat sheet.
-class NormalMethod : public ::testing::Test {
+class NormalMethod : public CommandTest {
  protected:
   NormalMethod() {
     io::write_mesh(folder / "sheet.ply", sheet());
@@ -49,53 +35,47 @@ class NormalMethod : public ::testing::Test {
   }
   void write_joint(const std::string& more, const std::string& fixed = "mesh = \"sheet.ply\"",
                    const std::string& centre = "[0, 0, 0]") const {
-    folder.file(
-        "joint.toml",
-        "condyle = 1\nname = \"joint\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = \"mm\"\n"
-        "[fixed]\nname = \"sheet\"\n" +
-            fixed + "\n[mobile]\nname = \"ball\"\nmesh = \"ball.ply\"\n[frame]\ncentre = " + centre +
-            "\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" + more);
+    write("joint.toml", text_of_joint({.fixed = "name = \"sheet\"\n" + fixed,
+                                       .mobile = "name = \"ball\"\nmesh = \"ball.ply\"",
+                                       .more = more,
+                                       .kind = "free",
+                                       .joint = "knee",
+                                       .centre = centre}));
   }
-  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
   Ran by_normals(const std::string& arguments = "") const {
     return run("depth joint.toml --pose y=19 --method normal " + arguments);
   }
-  Json answer(const std::string& arguments = "") const {
-    const Ran ran = by_normals(arguments + " --json");
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    return Json::parse(ran.out);
+  Json normal_depths(const std::string& arguments = "") const {
+    return answer("depth joint.toml --pose y=19 --method normal " + arguments);
   }
-
-  const TemporaryFolder folder;
 };
 
 TEST_F(NormalMethod, AnswersForAnOpenSheet) {
-  const Json json = answer();
+  const Json json = normal_depths();
   EXPECT_EQ(json["method"], "normal");
   EXPECT_TRUE(json["in_contact"]);
   EXPECT_EQ(json["caveats"].size(), 1u);
   EXPECT_TRUE(json["bodies"]["fixed"].is_null()) << "the joint file has the mobile body cast";
   const Json& ball = json["bodies"]["mobile"];
   EXPECT_EQ(ball["target"], "sheet");
-  EXPECT_NEAR(ball["max_normal_depth_mm"].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(ball["max_normal_depth_mm"], 1, 1e-12);
   EXPECT_EQ(json["rays"]["reach_mm"], 15);
   EXPECT_FALSE(json.contains("max_radial_depth_mm"));
 
   const std::string text = by_normals().out;
-  EXPECT_NE(text.find("  depths along normals compare with those of the same casting surface and rule only"),
-            text.npos);
-  EXPECT_NE(text.find("  from ball to sheet: "), text.npos) << text;
-  EXPECT_NE(text.find(", 1.000 at most, triangle "), text.npos) << text;
+  EXPECT_TRUE(
+      says(text, "  depths along normals compare with those of the same casting surface and rule only"));
+  EXPECT_TRUE(says(text, "  from ball to sheet: "));
+  EXPECT_TRUE(says(text, ", 1.000 at most, triangle "));
 }
 
 TEST_F(NormalMethod, IsNamedWhereAnOpenMeshIsRefused) {
-  expect_refusal(run("depth joint.toml --pose y=19"), 4,
-                 "(--method normal or --pairs-only accept such meshes)", "");
+  expect_refused(4, "depth joint.toml --pose y=19", "(--method normal or --pairs-only accept such meshes)");
   // Where triangles are wound against each other, normals mean nothing; where all of a closed mesh are, neither.
   TriMesh twisted = sheet();
   std::swap(twisted.triangles[100][0], twisted.triangles[100][1]);
   io::write_mesh(folder / "sheet.ply", twisted);
-  expect_refusal(run("depth joint.toml --pose y=19"), 4, "(--pairs-only accepts such meshes)", "");
+  expect_refused(4, "depth joint.toml --pose y=19", "(--pairs-only accepts such meshes)");
   expect_refusal(by_normals(), 4, "sheet.ply: triangles wound against each other at the edge from vertex ",
                  "");
   io::write_mesh(folder / "sheet.ply", sheet());
@@ -104,7 +84,7 @@ TEST_F(NormalMethod, IsNamedWhereAnOpenMeshIsRefused) {
 }
 
 TEST_F(NormalMethod, OptionsTakeThePlaceOfWhatTheJointFileSays) {
-  const Json json = answer("--casting both --rule face_centre --reach 12");
+  const Json json = normal_depths("--casting both --rule face_centre --reach 12");
   EXPECT_EQ(json["rays"], Json({{"casting", "both"}, {"rule", "face_centre"}, {"reach_mm", 12.0}}));
   EXPECT_FALSE(json["bodies"]["fixed"].is_null());
   EXPECT_FALSE(json["bodies"]["mobile"].is_null());
@@ -128,31 +108,29 @@ TEST_F(NormalMethod, ItsOptionsAreRefusedElsewhereAndWhereTheyMakeNoSense) {
 TEST_F(NormalMethod, WritesItsAnswerWithTheTrianglesOfTheCastingBody) {
   const Ran ran = by_normals("--json --out deep");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_EQ(read_whole_file(folder / "deep/depth.json"), ran.out);
-  const std::string fixed = read_whole_file(folder / "deep/fixed.vtp"),
-                    mobile = read_whole_file(folder / "deep/mobile.vtp");
+  EXPECT_EQ(text_of("deep/depth.json"), ran.out);
+  const std::string fixed = text_of("deep/fixed.vtp"), mobile = text_of("deep/mobile.vtp");
   for (const char* array : {"Name=\"depth_mm\"", "Name=\"contact_area_mm2\""}) {
-    EXPECT_NE(mobile.find(array), mobile.npos) << array;
-    EXPECT_EQ(fixed.find(array), fixed.npos) << array;
+    EXPECT_TRUE(says(mobile, array)) << array;
+    EXPECT_FALSE(says(fixed, array)) << array;
   }
-  EXPECT_NE(fixed.find("Name=\"in_contact\""), fixed.npos);
-  const std::string pairs = read_whole_file(folder / "deep/pairs.csv");
-  EXPECT_NE(pairs.find("\nfixed_triangle,mobile_triangle\n"), pairs.npos);
-  EXPECT_EQ(run("depth joint.toml --pose y=19 --pairs-only --json --out pairs").exit_code, 0);
-  const std::string other = read_whole_file(folder / "pairs/pairs.csv");
+  EXPECT_TRUE(says(fixed, "Name=\"in_contact\""));
+  const std::string pairs = text_of("deep/pairs.csv");
+  EXPECT_TRUE(says(pairs, "\nfixed_triangle,mobile_triangle\n"));
+  done("depth joint.toml --pose y=19 --pairs-only --json --out pairs");
+  const std::string other = text_of("pairs/pairs.csv");
   EXPECT_EQ(pairs.substr(pairs.find("fixed_triangle,")), other.substr(other.find("fixed_triangle,")));
 }
 
 TEST_F(NormalMethod, CentresAreInTheFrameAskedFor) {
-  const Json joint = answer("--casting both");
+  const Json joint = normal_depths("--casting both");
   write_joint("", "mesh = \"sheet.ply\"", "[1, 2, -3]");
   // The files' meshes lie by -(1, 2, -3) in the joint: the pose that brings the ball to the same place is the same.
-  const Json moved = answer("--frame source");
+  const Json moved = normal_depths("--frame source");
   for (const char* body : {"fixed", "mobile"}) {
     for (const int k : {0, 1, 2}) {
       for (const char* key : {"centre_mm", "centre_own_mm"})
-        EXPECT_NEAR(moved["bodies"][body][key][k].get<double>(), joint["bodies"][body][key][k].get<double>(),
-                    1e-12)
+        EXPECT_NEAR(moved["bodies"][body][key][k], joint["bodies"][body][key][k], 1e-12)
             << body << " " << key;
     }
   }
@@ -160,10 +138,10 @@ TEST_F(NormalMethod, CentresAreInTheFrameAskedFor) {
 
 TEST_F(NormalMethod, IsAboutThePartsThatTheJointFileNames) {
   io::write_mesh(folder / "far.ply", box({-5, -200, -5}, {5, -190, 5}));
-  const Json alone = answer("--casting both");
+  const Json alone = normal_depths("--casting both");
   write_joint("[contact]\nfixed_part = \"near\"\n",
               "meshes = [{ name = \"far\", mesh = \"far.ply\" }, { name = \"near\", mesh = \"sheet.ply\" }]");
-  const Json part = answer("--casting both");
+  const Json part = normal_depths("--casting both");
   EXPECT_EQ(part["fixed"], "near");
   EXPECT_EQ(part["bodies"]["fixed"], alone["bodies"]["fixed"]);
   EXPECT_EQ(part["bodies"]["mobile"]["target"], "near");
@@ -205,17 +183,15 @@ TEST(NormalMethodOnAKnee, GivesThePublishedDepths) {
     EXPECT_EQ(tibia["target"], "femoral cartilage");
     const auto published = [&](const std::string& name) { return knee->published("tf", frame, name); };
     const double mean = 1e3 * published("mean_proximity");
-    EXPECT_NEAR(tibia["max_normal_depth_mm"].get<double>(), 1e3 * published("max_proximity"),
-                digit + of_coordinates);
-    EXPECT_NEAR(tibia["mean_normal_depth_mm"].get<double>(), mean, digit + of_coordinates);
-    EXPECT_NEAR(tibia["area_mm2"].get<double>(), 1e6 * published("contact_area"), 0.5000001e-2);
+    EXPECT_NEAR(tibia["max_normal_depth_mm"], 1e3 * published("max_proximity"), digit + of_coordinates);
+    EXPECT_NEAR(tibia["mean_normal_depth_mm"], mean, digit + of_coordinates);
+    EXPECT_NEAR(tibia["area_mm2"], 1e6 * published("contact_area"), 0.5000001e-2);
     constexpr double patch = 30;  // mm: from a centre to the far end of the other compartment
     for (const int k : {0, 1, 2})
-      EXPECT_NEAR(tibia["centre_own_mm"][k].get<double>(),
-                  1e3 * published(std::string("center_of_proximity_") + "xyz"[k]),
+      EXPECT_NEAR(tibia["centre_own_mm"][k], 1e3 * published(std::string("center_of_proximity_") + "xyz"[k]),
                   patch * of_coordinates / mean);
     if (frame > 0) continue;
-    EXPECT_NEAR(tibia["max_normal_depth_mm"].get<double>(), 0.40443, 0.5e-5 + digit + of_coordinates);
+    EXPECT_NEAR(tibia["max_normal_depth_mm"], 0.40443, 0.5e-5 + digit + of_coordinates);
   }
 }
 

@@ -1,59 +1,40 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "io/file/whole_file.hpp"
 #include "support/report_block.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
 /// An arm hanging from the joint centre and a post in front of it.
-class ReportCommand : public ::testing::Test {
+class ReportCommand : public ArmAndPost {
  protected:
   void SetUp() override {
-    io::write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    write_arm(box({-1, -100, -2}, {1, -10, 2}));
+    ArmAndPost::SetUp();
     write_joint("");
   }
-  void write_arm(const TriMesh& arm) const { io::write_mesh(folder / "arm.ply", arm); }
+  void write_arm(const TriMesh& mesh) const { io::write_mesh(here / "arm.ply", mesh); }
   void write_joint(const std::string& more) const {
-    folder.file("joint.toml",
-                "condyle = 1\nname = \"arm & <post>\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n"
-                "[fixed]\nmesh = \"post.ply\"\n[mobile]\nmesh = \"arm.ply\"\n"
-                "[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" +
-                    more);
+    write("joint.toml", text_of_joint({.more = more, .name = "arm & <post>"}));
   }
-  /// The joint file with one of its texts replaced.
-  void write_other(const std::string& name, const std::string& text, const std::string& by) const {
-    std::string joint = io::read_whole_file(folder / "joint.toml");
-    joint.replace(joint.find(text), text.size(), by);
-    folder.file(name, joint);
-  }
-  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
-  Json answer(const std::string& arguments) const {
-    const Ran ran = run("report joint.toml --out report.html" + arguments);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  ReportBlock block() const { return report_block(text_of("report.html")); }
+  Json page_of(const std::string& arguments) const {
+    const Ran ran = done("report joint.toml --out report.html" + arguments);
     EXPECT_EQ(ran.out, "");
-    EXPECT_NE(ran.err.find("wrote report.html"), ran.err.npos) << ran.err;
-    return report_block(io::read_whole_file(folder / "report.html")).json;
+    EXPECT_TRUE(says(ran.err, "wrote report.html"));
+    return block().json;
   }
   void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
-    expect_refusal(run(arguments), exit_code, saying, arguments);
-    EXPECT_FALSE(fs::exists(folder / "report.html")) << arguments;
+    CommandTest::expect_refused(exit_code, arguments, saying);
+    EXPECT_FALSE(fs::exists(here / "report.html")) << arguments;
   }
 
-  const TemporaryFolder folder;
+  static constexpr const char* layers =
+      "[contact]\ncasting = \"fixed\"\n[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\n"
+      "thickness = 6\n";
+  static constexpr const char* tilted =
+      "[[part]]\nname = \"tilted\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\n"
+      "range = [-20, 20]\n";
 };
 
 /// The common part of both without the command line, and the intervals of the map, which have their own place in a
@@ -68,9 +49,8 @@ TEST_F(ReportCommand, SaysWhatRomSaysWithTheSameOptions) {
   const std::string options =
       " --band=20 --seed 7 --sigma-axes 0.5 --bearing count --map adduction=-10:10:10 "
       "internal_rotation=-10:10:10 --vary flexion";
-  const Json report = answer(options + " --title 'Ein \"Titel\" & mehr'");
-  const Ran rom = run("rom joint.toml --json" + options);
-  ASSERT_EQ(rom.exit_code, 0) << rom.err;
+  const Json report = page_of(options + " --title 'Ein \"Titel\" & mehr'");
+  const Ran rom = done("rom joint.toml --json" + options);
   EXPECT_EQ(without_command(report["rom"]), without_command(Json::parse(rom.out)));
   EXPECT_EQ(report["rom"]["provenance"]["command"][0], "report");
   EXPECT_EQ(report["title"], "Ein \"Titel\" & mehr");
@@ -81,7 +61,7 @@ TEST_F(ReportCommand, SaysWhatRomSaysWithTheSameOptions) {
 
 TEST_F(ReportCommand, IsCalledAfterTheJointAndHasItsOwnMotions) {
   write_joint("[[motion]]\nname = \"half_way\"\nvary = \"flexion\"\nrange = [0, 10]\n");
-  const Json report = answer("");
+  const Json report = page_of("");
   EXPECT_EQ(report["title"], "arm & <post>");
   EXPECT_EQ(report["poses"].back()["name"], "half_way");
   EXPECT_EQ(report["map"], nullptr);
@@ -89,13 +69,12 @@ TEST_F(ReportCommand, IsCalledAfterTheJointAndHasItsOwnMotions) {
 
 TEST_F(ReportCommand, ShowsBodiesInContactAndSaysWhyThereAreNoLimits) {
   write_arm(box({-1, -100, -2}, {41, -10, 2}));
-  const Json report = answer("");
+  const Json report = page_of("");
   EXPECT_EQ(report["rom"], nullptr);
-  EXPECT_NE(report["rom_error"].get<std::string>().find("in contact in the reference pose"),
-            std::string::npos);
+  EXPECT_TRUE(says(report["rom_error"].get<std::string>(), "in contact in the reference pose"));
   EXPECT_EQ(report["poses"].size(), 1u);
   EXPECT_EQ(report["poses"][0]["in_contact"], true);
-  EXPECT_EQ(answer(" --accept-reference-contact")["rom"]["motions"][0]["reason"], "contact_at_start");
+  EXPECT_EQ(page_of(" --accept-reference-contact")["rom"]["motions"][0]["reason"], "contact_at_start");
 }
 
 /// The answer of another command without what the page has of the joint.
@@ -106,12 +85,11 @@ Json without_joint(Json json) {
 }
 
 TEST_F(ReportCommand, ShowsTheBoneThatMustGoAndTheJointWithoutIt) {
-  ASSERT_EQ(run("sample hip --scenario 1 --alpha-angle 70 --out hip").exit_code, 0);
+  done("sample hip --scenario 1 --alpha-angle 70 --out hip");
   const std::string cut = "internal_rotation_at_90_flexion=45 --curve 2 --deepest 8 --margin 0";
-  ASSERT_EQ(run("report hip/hip.toml --out report.html --measures --resect " + cut).exit_code, 0);
-  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
-  const Ran resect = run("resect hip/hip.toml --json --out plan --reach " + cut);
-  ASSERT_EQ(resect.exit_code, 0) << resect.err;
+  done("report hip/hip.toml --out report.html --measures --resect " + cut);
+  const ReportBlock block = this->block();
+  const Ran resect = done("resect hip/hip.toml --json --out plan --reach " + cut);
   Json plan = block.json["plan"];
   const Json surfaces = plan["surfaces"];
   plan.erase("surfaces");
@@ -142,26 +120,22 @@ TEST_F(ReportCommand, ShowsTheBoneThatMustGoAndTheJointWithoutIt) {
 TEST_F(ReportCommand, RefusesOptionsOfACutWithoutOneAndPlansThatAPageDoesNotShow) {
   expect_refused(2, "report joint.toml --out report.html --margin 1", "--resect");
   expect_refused(2, "report joint.toml --out report.html --resect flexion=500", "cannot reach 500 degrees");
-  write_joint(
-      "[contact]\ncasting = \"fixed\"\n[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\n"
-      "thickness = 6\n");
+  write_joint(layers);
   expect_refused(2, "report joint.toml --out report.html --load --resect flexion=30", "not with --load");
-  EXPECT_EQ(answer("")["plan"], nullptr);
-  EXPECT_EQ(answer("")["measures"], nullptr);
+  EXPECT_EQ(page_of("")["plan"], nullptr);
+  EXPECT_EQ(page_of("")["measures"], nullptr);
 }
 
 TEST_F(ReportCommand, ComparesAJointWithTheOneBefore) {
   io::write_mesh(folder / "post_after.ply", box({50, -120, -50}, {70, -80, 50}));
-  write_other("after.toml", "mesh = \"post.ply\"", "mesh = \"post_after.ply\"");
+  write_edited("after.toml", "joint.toml", "mesh = \"post.ply\"", "mesh = \"post_after.ply\"");
   const std::string options = " --band=20 --seed 7";
-  const Ran ran = run("report ./joint.toml after.toml --past 5 --out report.html" + options);
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  done("report ./joint.toml after.toml --past 5 --out report.html" + options);
+  const ReportBlock block = this->block();
   const Json& before = block.json["before"];
   EXPECT_EQ(before["file"], "joint.toml");
-  EXPECT_EQ(without_command(before["rom"]),
-            without_command(Json::parse(run("rom joint.toml --json" + options).out)));
-  const Json after = Json::parse(run("rom after.toml --json --past 5" + options).out);
+  EXPECT_EQ(without_command(before["rom"]), without_command(answer("rom joint.toml" + options)));
+  const Json after = answer("rom after.toml --past 5" + options);
   EXPECT_EQ(without_command(block.json["rom"])["motions"][0]["limit_deg"], after["motions"][0]["limit_deg"]);
   const Json& flexion = before["differences"][0];
   EXPECT_EQ(flexion["difference_deg"].get<double>(),
@@ -177,11 +151,9 @@ TEST_F(ReportCommand, ComparesAJointWithTheOneBefore) {
 }
 
 TEST_F(ReportCommand, SetsParametersOfTheJointAfterOnly) {
-  write_joint(
-      "[[part]]\nname = \"tilted\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\nrange = [-20, "
-      "20]\n");
-  ASSERT_EQ(run("report joint.toml joint.toml --set tilted.tilt=5 --out report.html").exit_code, 0);
-  const Json block = report_block(io::read_whole_file(folder / "report.html")).json;
+  write_joint(tilted);
+  done("report joint.toml joint.toml --set tilted.tilt=5 --out report.html");
+  const Json block = this->block().json;
   const Json& before = block["before"]["rom"]["provenance"]["parameters"][0];
   EXPECT_EQ(before["value"], before["in_joint_file"]);
   EXPECT_EQ(block["rom"]["provenance"]["parameters"][0]["value"], 5);
@@ -189,28 +161,24 @@ TEST_F(ReportCommand, SetsParametersOfTheJointAfterOnly) {
 }
 
 TEST_F(ReportCommand, SaysThatWithoutLimitsThereIsNoSafeZone) {
-  write_joint(
-      "[[part]]\nname = \"tilted\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\nrange = [-20, "
-      "20]\n");
+  write_joint(tilted);
   folder.file("targets.csv", "name,motion,reach_deg,pelvic_tilt_deg,source\nsitting,flexion,20,,\n");
   const std::string swept = " --sweep tilted.tilt=-10:10:10 --targets targets.csv";
-  EXPECT_EQ(answer(swept)["sweep"]["parameters"].size(), 1u);
+  EXPECT_EQ(page_of(swept)["sweep"]["parameters"].size(), 1u);
 
   write_arm(box({-1, -100, -2}, {41, -10, 2}));
-  const Ran ran = run("report joint.toml --out report.html" + swept);
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_NE(ran.err.find("no safe zone: without limits"), ran.err.npos) << ran.err;
-  EXPECT_FALSE(report_block(io::read_whole_file(folder / "report.html")).json.contains("sweep"));
+  const Ran ran = done("report joint.toml --out report.html" + swept);
+  EXPECT_TRUE(says(ran.err, "no safe zone: without limits"));
+  EXPECT_FALSE(block().json.contains("sweep"));
 }
 
 TEST_F(ReportCommand, ShowsAComparisonOfWhichOneJointHasNoLimits) {
   io::write_mesh(folder / "long.ply", box({-1, -100, -2}, {41, -10, 2}));
-  write_other("after.toml", "mesh = \"arm.ply\"", "mesh = \"long.ply\"");
+  write_edited("after.toml", "joint.toml", "mesh = \"arm.ply\"", "mesh = \"long.ply\"");
   const auto report = [&](const std::string& joints) {
-    const Ran ran = run("report " + joints + " --out report.html");
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    EXPECT_NE(ran.err.find("after.toml: no limits: "), ran.err.npos) << ran.err;
-    return report_block(io::read_whole_file(folder / "report.html")).json;
+    const Ran ran = done("report " + joints + " --out report.html");
+    EXPECT_TRUE(says(ran.err, "after.toml: no limits: "));
+    return block().json;
   };
   const std::string_view why = "in contact in the reference pose";
   const Json now = report("joint.toml after.toml");
@@ -219,13 +187,13 @@ TEST_F(ReportCommand, ShowsAComparisonOfWhichOneJointHasNoLimits) {
   EXPECT_EQ(now["before"]["differences"], Json::array());
   const Json then = report("after.toml joint.toml");
   EXPECT_NE(then["rom"], nullptr);
-  EXPECT_NE(then["before"]["rom_error"].get<std::string>().find(why), std::string::npos);
+  EXPECT_TRUE(says(then["before"]["rom_error"].get<std::string>(), why));
 }
 
 TEST_F(ReportCommand, RefusesJointsThatDoNotCompareAndNamesBoth) {
-  write_other("left.toml", "side = \"right\"", "side = \"left\"");
-  write_other("hinge.toml", "kind = \"ball\"", "kind = \"hinge\"");
-  write_other("other.toml", "", "");
+  write_edited("left.toml", "joint.toml", "side = \"right\"", "side = \"left\"");
+  write_edited("hinge.toml", "joint.toml", "kind = \"ball\"", "kind = \"hinge\"");
+  write_edited("other.toml", "joint.toml", "", "");
   for (const std::string other : {"left.toml", "hinge.toml"}) {
     expect_refused(2, "report joint.toml " + other + " --out report.html",
                    "joint.toml (ball, hip, right) and " + other);
@@ -243,9 +211,8 @@ TEST_F(ReportCommand, RefusesJointsThatDoNotCompareAndNamesBoth) {
 
 TEST_F(ReportCommand, PlaysARecordedMotion) {
   folder.file("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n0.2,\n0.3,30\n");
-  const Ran ran = run("report joint.toml --motion swing.csv --out report.html");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  done("report joint.toml --motion swing.csv --out report.html");
+  const ReportBlock block = this->block();
   const Json& recorded = block.json["recorded"];
   EXPECT_EQ(recorded["name"], "swing.csv");
   EXPECT_EQ(block.array<double>(recorded["times_s"], "f64"), (std::vector{0.0, 0.1, 0.2, 0.3}));
@@ -263,10 +230,8 @@ TEST_F(ReportCommand, PlaysARecordedMotion) {
 TEST_F(ReportCommand, PressureComesFromLayersOfTheJointFile) {
   folder.file("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n");
   expect_refused(2, "report joint.toml --out report.html --motion swing.csv --load", "no layers");
-  write_joint(
-      "[contact]\ncasting = \"fixed\"\n[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\n"
-      "thickness = 6\n");
-  const Json report = answer(" --motion swing.csv --load");
+  write_joint(layers);
+  const Json report = page_of(" --motion swing.csv --load");
   bool found = false;
   for (const Json& curve : report["recorded"]["curves"])
     found |= curve["name"] == "max_pressure_mpa" && curve["unit"] == "MPa";
@@ -274,12 +239,10 @@ TEST_F(ReportCommand, PressureComesFromLayersOfTheJointFile) {
 }
 
 TEST_F(ReportCommand, HoldsTheLayersThatThePageComputesPressureWith) {
-  write_joint(
-      "[contact]\ncasting = \"fixed\"\n[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\n"
-      "thickness = 6\n");
-  EXPECT_EQ(answer("")["layers"], nullptr);
-  ASSERT_EQ(run("report joint.toml --load --out report.html").exit_code, 0);
-  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  write_joint(layers);
+  EXPECT_EQ(page_of("")["layers"], nullptr);
+  done("report joint.toml --load --out report.html");
+  const ReportBlock block = this->block();
   const Json& layers = block.json["layers"];
   EXPECT_EQ(layers["casting"], "fixed");
   EXPECT_EQ(layers["law"], "linear");
@@ -294,10 +257,10 @@ TEST_F(ReportCommand, HoldsTheLayersThatThePageComputesPressureWith) {
 }
 
 TEST_F(ReportCommand, HoldsTheTrianglesThatMeetPastALimit) {
-  EXPECT_EQ(answer("")["zones"].size(), 0u);
-  ASSERT_EQ(run("report joint.toml --past 3 --out report.html").exit_code, 0);
-  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
-  ASSERT_EQ(run("rom joint.toml --past 3 --out range").exit_code, 0);
+  EXPECT_EQ(page_of("")["zones"].size(), 0u);
+  done("report joint.toml --past 3 --out report.html");
+  const ReportBlock block = this->block();
+  done("rom joint.toml --past 3 --out range");
   std::size_t zones = 0;
   for (const Json& zone : block.json["zones"]) {
     EXPECT_EQ(zone["past_deg"], 3);
@@ -316,13 +279,12 @@ TEST_F(ReportCommand, HoldsTheTrianglesThatMeetPastALimit) {
 }
 
 TEST_F(ReportCommand, WithoutAJointIsThePageThatTakesOne) {
-  const Ran ran = run("report --empty --out report.html");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  const std::string page = io::read_whole_file(folder / "report.html");
-  EXPECT_NE(page.find("<!--condyle-data-->"), page.npos);
-  EXPECT_EQ(page.find("id=\"condyle-data\""), page.npos);
+  done("report --empty --out report.html");
+  const std::string page = text_of("report.html");
+  EXPECT_TRUE(says(page, "<!--condyle-data-->"));
+  EXPECT_FALSE(says(page, "id=\"condyle-data\""));
   for (const std::string file : {"hip_bone.ply", "femur.ply", "hip.toml"})
-    EXPECT_NE(page.find("data-sample=\"" + file + "\""), page.npos) << file;
+    EXPECT_TRUE(says(page, "data-sample=\"" + file + "\"")) << file;
   fs::remove(folder / "report.html");
   expect_refused(2, "report joint.toml --empty --out report.html", "JOINT: is for a report of a joint");
   expect_refused(2, "report --empty --title x --out report.html", "--title: is for a report of a joint");
@@ -353,14 +315,14 @@ TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
 TEST_F(ReportCommand, AnOlderReportStaysWhereANewOneFails) {
   folder.file("report.html", "of The Condyle authors");
   ASSERT_EQ(run("report joint.toml --out report.html --band=3").exit_code, 2);
-  EXPECT_EQ(io::read_whole_file(folder / "report.html"), "of The Condyle authors");
+  EXPECT_EQ(text_of("report.html"), "of The Condyle authors");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 4);
 }
 
 TEST_F(ReportCommand, IsTheSameBytesOnOneThreadAndOnTwo) {
-  ASSERT_EQ(run("report joint.toml --threads 1 --band=20 --out one.html").exit_code, 0);
-  ASSERT_EQ(run("report joint.toml --threads 2 --band=20 --out two.html").exit_code, 0);
-  EXPECT_EQ(io::read_whole_file(folder / "one.html"), io::read_whole_file(folder / "two.html"));
+  done("report joint.toml --threads 1 --band=20 --out one.html");
+  done("report joint.toml --threads 2 --band=20 --out two.html");
+  EXPECT_EQ(text_of("one.html"), text_of("two.html"));
 }
 
 }  // namespace

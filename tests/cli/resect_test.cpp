@@ -1,42 +1,35 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "command.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
 
 /// `condyle resect` says what answer_resection() answers, and writes a joint that has the limits it says.
 
 namespace condyle::test {
 namespace {
 
-using Json = nlohmann::json;
-
-class ResectCommand : public ::testing::Test {
+class ResectCommand : public CommandTest {
  protected:
-  void SetUp() override { ASSERT_EQ(run("sample hip --scenario 1 --alpha-angle 70 --out .").exit_code, 0); }
+  void SetUp() override { sample_into(here, "hip --scenario 1 --alpha-angle 70"); }
   /// Plans are for the joint as given where no band is requested: displaced joints take seconds.
-  Ran run(const std::string& arguments) const {
+  static std::string without_band(const std::string& arguments) {
     const bool is_plan = arguments.starts_with("resect") && arguments.find("--band") == arguments.npos;
-    return run_condyle(folder.path(), arguments + (is_plan ? " --band=0" : ""));
+    return arguments + (is_plan ? " --band=0" : "");
   }
-  Json answer(const std::string& arguments) const {
-    const Ran ran = run("resect hip.toml --json " + arguments);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    return Json::parse(ran.out);
+  Ran run(const std::string& arguments) const { return CommandTest::run(without_band(arguments)); }
+  Ran done(const std::string& arguments) const { return CommandTest::done(without_band(arguments)); }
+  Json resected(const std::string& arguments) const {
+    return Json::parse(done("resect hip.toml --json " + arguments).out);
   }
-
-  const TemporaryFolder folder;
+  void mark_all_vertices() const {
+    std::string marks;
+    for (std::size_t v = 0; v < io::read_mesh(here / "femur.ply").mesh.vertices.size(); ++v) marks += "1\n";
+    write("marks.txt", marks);
+  }
 };
 
 TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
   const Json json =
-      answer("--reach 'internal_rotation_at_90_flexion=45 fadir=30' --curve 2 --band=20 --out plan");
+      resected("--reach 'internal_rotation_at_90_flexion=45 fadir=30' --curve 2 --band=20 --out plan");
   const io::LoadedJoint loaded = io::read_joint(folder / "hip.toml");
   ResectionRequest request;
   request.resection.targets =
@@ -51,8 +44,7 @@ TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
     EXPECT_EQ(json["targets"][i]["after"]["limit_deg"],
               expected.resection.targets[i].after.end.turned.degrees());
   for (std::size_t i = 0; i < expected.after.size(); ++i) {
-    EXPECT_NEAR(json["limits"][i]["after"]["limit_deg"].get<double>(), expected.after[i].end.turned.degrees(),
-                1e-12);
+    EXPECT_NEAR(json["limits"][i]["after"]["limit_deg"], expected.after[i].end.turned.degrees(), 1e-12);
     EXPECT_EQ(json["limits"][i]["gain_deg"], expected.gain[i].degrees());
   }
   EXPECT_EQ(json["confidence"], 0.5);
@@ -69,9 +61,8 @@ TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
     EXPECT_EQ(faber[band]["p95_deg"], 120.0);
     EXPECT_TRUE(faber[band]["text"].get<std::string>().ends_with(">120")) << faber[band]["text"];
   }
-  const std::string csv = io::read_whole_file(folder / "plan" / "limits.csv");
-  EXPECT_NE(csv.find(fmt::format(",{},{}\n", faber["band"]["median_deg"].get<double>(), 120)), csv.npos)
-      << csv;
+  const std::string csv = text_of("plan/limits.csv");
+  EXPECT_TRUE(says(csv, fmt::format(",{},{}\n", faber["band"]["median_deg"].get<double>(), 120)));
   ASSERT_EQ(json["curve"].size(), expected.curve.size());
   // fadir is reached already: it has no curve.
   EXPECT_EQ(json["curve"].size(), 2u);
@@ -85,70 +76,62 @@ TEST_F(ResectCommand, SaysANoteOnceByItsCodeOnStandardError) {
   const Ran text = run("resect hip.toml --reach flexion=10"),
             json = run("resect hip.toml --reach flexion=10 --json");
   const Json note = Json::parse(json.out)["resection_notes"][0];
-  EXPECT_EQ(text.out.find(note["text"].get<std::string>()), text.out.npos) << text.out;
+  EXPECT_FALSE(says(text.out, note["text"].get<std::string>()));
   for (const Ran& ran : {text, json})
     EXPECT_EQ(ran.err, "condyle: note: nothing_to_do: " + note["text"].get<std::string>() + "\n");
 }
 
 TEST_F(ResectCommand, APlanOfAHipSaysWhatFollowUpsFoundAndKeepsWhoseItIs) {
-  std::ofstream(folder / "hip.toml", std::ios::app) << "\n[person]\nage = 31\nsex = \"male\"\n";
+  append("hip.toml", "\n[person]\nage = 31\nsex = \"male\"\n");
   const std::string said =
-      answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan")["caveats"].dump();
-  EXPECT_NE(said.find("13 patients"), said.npos) << said;
+      resected("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan")["caveats"].dump();
+  EXPECT_TRUE(says(said, "13 patients"));
   const Person person = io::read_joint(folder / "plan" / "resected.toml").joint.person;
   EXPECT_EQ(person.age_years, 31);
   EXPECT_EQ(person.sex, Sex::male);
   // An elbow is no hip.
-  std::string text = io::read_whole_file(folder / "hip.toml");
-  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"elbow\"");
-  std::ofstream(folder / "hip.toml") << text;
-  EXPECT_EQ(
-      answer("--reach flexion=60 --curve 0 --accept-reference-contact")["caveats"].dump().find("patients"),
-      std::string::npos);
+  edit("hip.toml", "kind = \"ball\"", "kind = \"hinge\"\njoint = \"elbow\"");
+  EXPECT_FALSE(says(resected("--reach flexion=60 --curve 0 --accept-reference-contact")["caveats"].dump(),
+                    "patients"));
 }
 
 TEST_F(ResectCommand, WritesAJointWithTheLimitsItSays) {
-  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
+  const Json json = resected("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
   for (const char* name : {"resection.json", "limits.csv", "hours.csv", "depth_mobile.vtp", "resected.toml",
                            "resected_mobile.ply", "resected_fixed.ply"})
-    EXPECT_TRUE(std::filesystem::exists(folder / "plan" / name)) << name;
-  EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "curve.csv"));
-  const Ran rom = run("rom plan/resected.toml --json");
-  ASSERT_EQ(rom.exit_code, 0) << rom.err;
-  const Json limits = Json::parse(rom.out)["motions"];
+    EXPECT_TRUE(fs::exists(folder / "plan" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "plan" / "curve.csv"));
+  const Json limits = answer("rom plan/resected.toml")["motions"];
   for (std::size_t i = 0; i < limits.size(); ++i)
     EXPECT_EQ(limits[i]["limit_deg"], json["limits"][i]["after"]["limit_deg"]) << limits[i]["motion"];
 }
 
 TEST_F(ResectCommand, AJointThatWasCutSaysSoInEveryAnswer) {
-  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
+  const Json json = resected("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
   const std::string planned =
       fmt::format("without {:.1f} mm3 of {}, from hip.toml", json["cuts"][0]["volume_mm3"].get<double>(),
                   json["cuts"][0]["name"].get<std::string>());
   for (const std::string command : {"rom", "depth", "measure", "frame"}) {
     const Ran said = run(command + " plan/resected.toml");
-    EXPECT_NE(said.out.find(", resected"), said.out.npos) << command;
-    EXPECT_NE(said.out.find("  planned: " + planned), said.out.npos) << said.out;
-    const Json of = Json::parse(run(command + " plan/resected.toml --json").out);
+    EXPECT_TRUE(says(said.out, ", resected")) << command;
+    EXPECT_TRUE(says(said.out, "  planned: " + planned));
+    const Json of = answer(command + " plan/resected.toml");
     EXPECT_EQ(of["provenance"]["planned"], planned) << command;
   }
   // Cut once more: the name says it once, and the list has both.
-  ASSERT_EQ(run("resect plan/resected.toml --reach internal_rotation_at_90_flexion=50 --curve 0 --out again")
-                .exit_code,
-            0);
+  done("resect plan/resected.toml --reach internal_rotation_at_90_flexion=50 --curve 0 --out again");
   const io::JointFile again = io::read_joint_file(folder / "again/resected.toml");
   EXPECT_EQ(again.joint.planned.rfind(planned + ", without ", 0), 0u) << again.joint.planned;
   EXPECT_EQ(again.joint.name.find("resected"), again.joint.name.rfind("resected"));
 }
 
 TEST_F(ResectCommand, KeepsTheColumnsOfARecordedMotion) {
-  std::ofstream(folder / "hip.toml", std::ios::app)
-      << "\n[recorded_motion]\n"
+  append("hip.toml",
+         "\n[recorded_motion]\n"
          "flexion = { column = \"a \\\"quoted\\\" one\", unit = \"rad\", sign = -1, offset = 0.5, range = "
          "[-1, 2] }\n"
-         "adduction = { column = \"b\", default = 3, locked = true }\n";
-  ASSERT_EQ(run("resect hip.toml --reach internal_rotation_at_90_flexion=45 --curve 0 --out plan").exit_code,
-            0);
+         "adduction = { column = \"b\", default = 3, locked = true }\n");
+  done("resect hip.toml --reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
   const auto columns_of = [&](const char* file) {
     return std::get<std::vector<io::ColumnOfCoordinate>>(*io::read_joint_file(folder / file).recorded_motion);
   };
@@ -167,26 +150,23 @@ TEST_F(ResectCommand, KeepsTheColumnsOfARecordedMotion) {
 }
 
 TEST_F(ResectCommand, SaysThatPosesOfTheMeshesAsGivenAreLeftOut) {
-  std::ofstream(folder / "hip.toml", std::ios::app)
-      << "\n[recorded_motion]\nfixed_body = \"pelvis\"\nmobile_body = \"femur\"\nunits = \"mm\"\n";
-  ASSERT_EQ(run("resect hip.toml --reach internal_rotation_at_90_flexion=45 --curve 0 --out plan").exit_code,
-            0);
+  append("hip.toml",
+         "\n[recorded_motion]\nfixed_body = \"pelvis\"\nmobile_body = \"femur\"\nunits = \"mm\"\n");
+  done("resect hip.toml --reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
   EXPECT_FALSE(io::read_joint_file(folder / "plan/resected.toml").recorded_motion);
-  std::ifstream file(folder / "plan/resected.toml");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_NE(text.find("# [recorded_motion] is left out"), text.npos);
+  EXPECT_TRUE(says(text_of("plan/resected.toml"), "# [recorded_motion] is left out"));
 }
 
 TEST_F(ResectCommand, NothingToDoIsAnAnswer) {
-  const Json json = answer("--reach flexion=20 --out plan");
+  const Json json = resected("--reach flexion=20 --out plan");
   EXPECT_TRUE(json["cuts"].empty());
   EXPECT_EQ(json["resection_notes"][0]["code"], "nothing_to_do");
-  EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "resected.toml"));
+  EXPECT_FALSE(fs::exists(folder / "plan" / "resected.toml"));
 }
 
 // With a margin the sweep has to be looked at; that nothing goes is no cut.
 TEST_F(ResectCommand, ACutThatTakesNothingIsNone) {
-  const Json json = answer("--reach internal_rotation_at_90_flexion=30 --margin 0.5 --curve 0");
+  const Json json = resected("--reach internal_rotation_at_90_flexion=30 --margin 0.5 --curve 0");
   EXPECT_EQ(json["targets"][0]["reach_deg"], 30.0);
   EXPECT_TRUE(json["cuts"].empty());
   EXPECT_EQ(json["resection_notes"][0]["code"], "nothing_to_do");
@@ -194,15 +174,10 @@ TEST_F(ResectCommand, ACutThatTakesNothingIsNone) {
     EXPECT_EQ(measure["before"], measure["after"]) << measure["key"];
 }
 
-bool has_note(const Json& json, std::string_view code) {
-  return std::any_of(json["resection_notes"].begin(), json["resection_notes"].end(),
-                     [&](const Json& note) { return note["code"] == code; });
-}
-
 // A wide ball of what bears: triangles on its border are met as a whole, their pieces are not.
 TEST_F(ResectCommand, WhatSmallerTrianglesGainIsSaid) {
-  const Json json = answer("--reach internal_rotation_at_90_flexion=40 --bearing 5 --curve 0");
-  EXPECT_TRUE(has_note(json, "finer_triangles"));
+  const Json json = resected("--reach internal_rotation_at_90_flexion=40 --bearing 5 --curve 0");
+  EXPECT_TRUE(has_note(json, "finer_triangles", "resection_notes"));
   // What they gain is no gain of the cut: nothing of it was in the way.
   bool any = false;
   for (const Json& limit : json["limits"]) {
@@ -215,13 +190,14 @@ TEST_F(ResectCommand, WhatSmallerTrianglesGainIsSaid) {
     }
   }
   EXPECT_TRUE(any);
-  EXPECT_FALSE(has_note(json, "nothing_to_do"));
-  EXPECT_FALSE(has_note(answer("--reach internal_rotation_at_90_flexion=45 --curve 0"), "finer_triangles"));
+  EXPECT_FALSE(has_note(json, "nothing_to_do", "resection_notes"));
+  EXPECT_FALSE(has_note(resected("--reach internal_rotation_at_90_flexion=45 --curve 0"), "finer_triangles",
+                        "resection_notes"));
 }
 
 // Neither the joint space nor what bears depends on the triangles around a cut.
 TEST_F(ResectCommand, ARimThatIsCutLeavesHeadSocketAndMarginWhatTheyWere) {
-  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --from fixed --curve 0 --out plan");
+  const Json json = resected("--reach internal_rotation_at_90_flexion=45 --from fixed --curve 0 --out plan");
   std::size_t spaces = 0;
   for (const Json& measure : json["measures"])
     if (measure["key"] == "joint_space_least_mm") {
@@ -231,17 +207,15 @@ TEST_F(ResectCommand, ARimThatIsCutLeavesHeadSocketAndMarginWhatTheyWere) {
     }
   EXPECT_EQ(spaces, 1u);
   // The socket that resected.toml states is found on its mesh.
-  const Ran measured = run("measure plan/resected.toml --json");
-  ASSERT_EQ(measured.exit_code, 0) << measured.err;
-  const Json shape = Json::parse(measured.out);
+  const Json shape = answer("measure plan/resected.toml");
   for (std::size_t i = 0; i < shape["measures"].size(); ++i) {
     const Json &value = shape["measures"][i]["value"], &after = json["measures"][i]["after"];
     ASSERT_EQ(value.is_null(), after.is_null()) << shape["measures"][i]["key"];
     if (!value.is_null()) {
-      EXPECT_NEAR(value.get<double>(), after.get<double>(), 1e-6) << shape["measures"][i]["key"];
+      EXPECT_NEAR(value, after, 1e-6) << shape["measures"][i]["key"];
     }
     const std::string note = shape["measures"][i]["note"].is_null() ? "" : shape["measures"][i]["note"];
-    EXPECT_EQ(note.find("no socket"), note.npos) << note;
+    EXPECT_FALSE(says(note, "no socket"));
   }
   const motion::BearingFinding before =
                                    motion::find_bearing_surface(io::read_joint(folder / "hip.toml").joint),
@@ -254,22 +228,16 @@ TEST_F(ResectCommand, ARimThatIsCutLeavesHeadSocketAndMarginWhatTheyWere) {
 }
 
 TEST_F(ResectCommand, MarkedVerticesStay) {
-  const std::size_t vertices = io::read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
-  std::ofstream marks(folder / "marks.txt");
-  for (std::size_t v = 0; v < vertices; ++v) marks << "1\n";
-  marks.close();
-  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --protect marks.txt");
+  mark_all_vertices();
+  const Json json = resected("--reach internal_rotation_at_90_flexion=45 --curve 0 --protect marks.txt");
   EXPECT_EQ(json["targets"][0]["blocked"]["kept_by"], "marked");
   EXPECT_TRUE(json["cuts"].empty());
   EXPECT_EQ(json["resection_notes"][0]["code"], "target_blocked");
 }
 
 TEST_F(ResectCommand, RefusesInOneLine) {
-  const std::size_t vertices = io::read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
-  std::ofstream marks(folder / "marks.txt");
-  for (std::size_t v = 0; v < vertices; ++v) marks << "1\n";
-  marks.close();
-  std::ofstream(folder / "short.txt") << "1\n0\n";
+  mark_all_vertices();
+  write("short.txt", "1\n0\n");
   std::ofstream(folder / "wrong.txt") << "1\nyes\n";
   for (const auto& [arguments, code, says] :
        {std::tuple{"--reach wink=20", 2, "unknown motion \"wink\""},
@@ -287,12 +255,9 @@ TEST_F(ResectCommand, RefusesInOneLine) {
         {"--reach flexion=140 --protect short.txt", 3, "short.txt: 2 marks for the"},
         {"--reach flexion=140 --protect wrong.txt", 3, "line 2: 'yes' is no mark"}}) {
     const std::string given(arguments);
-    const Ran ran = run(std::string("resect hip.toml ") +
-                        (given.find("--curve") == given.npos ? "--curve 0 " : "") + given);
-    EXPECT_EQ(ran.exit_code, code) << arguments;
-    EXPECT_NE(ran.err.find(says), ran.err.npos) << ran.err;
-    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
-    EXPECT_TRUE(ran.out.empty());
+    expect_refusal(run(std::string("resect hip.toml ") +
+                       (given.find("--curve") == given.npos ? "--curve 0 " : "") + given),
+                   code, says, given);
   }
 }
 

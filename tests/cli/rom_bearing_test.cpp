@@ -1,61 +1,37 @@
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
 /// Answers of `condyle rom` for a hip with a head: its bearing surface, bands and maps.
-class RomOfSampleHip : public ::testing::Test {
+class RomOfSampleHip : public CommandTest {
  protected:
-  void SetUp() override { sample_into(folder.path(), "hip"); }
-  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
-  Json answer(const std::string& arguments) const {
-    const Ran ran = run("rom hip.toml --json " + arguments);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    return Json::parse(ran.out);
-  }
-  void edit_joint(std::string_view from, std::string_view to) const {
-    std::string text = io::read_whole_file(folder / "hip.toml");
-    const auto at = text.find(from);
-    ASSERT_NE(at, text.npos) << from;
-    std::ofstream(folder / "hip.toml") << text.replace(at, from.size(), to);
-  }
-
-  const TemporaryFolder folder;
+  void SetUp() override { sample_into(here, "hip"); }
+  Json limits(const std::string& arguments) const { return answer("rom hip.toml " + arguments); }
 };
 
 TEST_F(RomOfSampleHip, TakesTheMarginGivenOrCountsEveryContact) {
-  const Json usual = answer("--motion flexion")["bearing"];
+  const Json usual = limits("--motion flexion")["bearing"];
   EXPECT_EQ(usual["rule"], "leave_out");
-  const Json given = answer("--motion flexion --bearing 1.5")["bearing"];
+  const Json given = limits("--motion flexion --bearing 1.5")["bearing"];
   EXPECT_EQ(given["rule"], "leave_out");
   EXPECT_EQ(given["margin_mm"], 1.5);
   EXPECT_NE(given["margin_mm"], usual["margin_mm"]);
   EXPECT_LE(given["triangles"], usual["triangles"]);
-  const Json counted = answer("--motion flexion --bearing count");
+  const Json counted = limits("--motion flexion --bearing count");
   EXPECT_EQ(counted["bearing"]["rule"], "count");
   EXPECT_TRUE(counted["motions"][0]["joint_space_mm"].is_null());
-  EXPECT_NE(run("rom hip.toml --motion flexion --bearing count").out.find("contact on it counts"),
-            std::string::npos);
-  EXPECT_NE(run("rom hip.toml --motion flexion --bearing 1.5 --verbose")
-                .out.find("within 1.50 mm of the head's sphere"),
-            std::string::npos);
+  EXPECT_TRUE(says(run("rom hip.toml --motion flexion --bearing count").out, "contact on it counts"));
+  EXPECT_TRUE(says(run("rom hip.toml --motion flexion --bearing 1.5 --verbose").out,
+                   "within 1.50 mm of the head's sphere"));
 }
 
 TEST_F(RomOfSampleHip, WritesTheMobileBodyWithItsBearingSurfaceMarked) {
-  const Json bearing = answer("--motion flexion --out out --ascii")["bearing"];
+  const Json bearing = limits("--motion flexion --out out --ascii")["bearing"];
   EXPECT_EQ(io::read_mesh(folder / "out/bearing.vtp").mesh, io::read_mesh(folder / "femur.ply").mesh);
-  const std::string vtp = io::read_whole_file(folder / "out/bearing.vtp");
+  const std::string vtp = text_of("out/bearing.vtp");
   const auto at = vtp.find("Name=\"bearing\"");
   ASSERT_NE(at, vtp.npos);
   const auto begin = vtp.find('>', at) + 1;
@@ -69,27 +45,24 @@ TEST_F(RomOfSampleHip, WritesTheMobileBodyWithItsBearingSurfaceMarked) {
 }
 
 TEST_F(RomOfSampleHip, OfAHingeSaysThatEveryContactCounts) {
-  edit_joint("kind = \"ball\"", "kind = \"hinge\"");
-  const Ran ran = run("rom hip.toml");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_NE(
-      ran.out.find(
-          "  every contact counts: bearing contact is not distinguished from impingement in this joint\n"),
-      std::string::npos)
-      << ran.out;
-  EXPECT_EQ(answer("")["bearing"],
+  edit("hip.toml", "kind = \"ball\"", "kind = \"hinge\"");
+  const Ran ran = done("rom hip.toml");
+  EXPECT_TRUE(
+      says(ran.out,
+           "  every contact counts: bearing contact is not distinguished from impingement in this joint\n"));
+  EXPECT_EQ(limits("")["bearing"],
             (Json{{"rule", "count"},
                   {"why_none", "bearing contact is not distinguished from impingement in this joint"}}));
 }
 
 TEST_F(RomOfSampleHip, TakesUncertaintyFromTheJointFileUnlessOptionsSay) {
   const auto band_of = [&](const std::string& options) {
-    return answer("--motion flexion --band=20 " + options)["band"];
+    return limits("--motion flexion --band=20 " + options)["band"];
   };
   EXPECT_EQ(band_of(""), (Json{{"samples", 20},
                                {"seed", 1},
                                {"sigma", {{"centre_mm", 0.5}, {"axes_deg", 1.0}, {"surface_mm", 0.25}}}}));
-  edit_joint("[frame]", "[uncertainty]\ncentre = 0.75\naxes = 2\nsurface = 0.125\nseed = 42\n[frame]");
+  edit("hip.toml", "[frame]", "[uncertainty]\ncentre = 0.75\naxes = 2\nsurface = 0.125\nseed = 42\n[frame]");
   const Json of_file = {{"samples", 20},
                         {"seed", 42},
                         {"sigma", {{"centre_mm", 0.75}, {"axes_deg", 2.0}, {"surface_mm", 0.125}}}};
@@ -98,9 +71,9 @@ TEST_F(RomOfSampleHip, TakesUncertaintyFromTheJointFileUnlessOptionsSay) {
             (Json{{"samples", 20},
                   {"seed", 7},
                   {"sigma", {{"centre_mm", 0.75}, {"axes_deg", 0.5}, {"surface_mm", 0.125}}}}));
-  const Json from_file = answer("--motion flexion --band=20")["motions"][0]["band"];
-  EXPECT_NE(from_file, answer("--motion flexion --band=20 --seed 7")["motions"][0]["band"]);
-  EXPECT_EQ(from_file, answer("--motion flexion --band=20 --seed 42")["motions"][0]["band"]);
+  const Json from_file = limits("--motion flexion --band=20")["motions"][0]["band"];
+  EXPECT_NE(from_file, limits("--motion flexion --band=20 --seed 7")["motions"][0]["band"]);
+  EXPECT_EQ(from_file, limits("--motion flexion --band=20 --seed 42")["motions"][0]["band"]);
 }
 
 }  // namespace

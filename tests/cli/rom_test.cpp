@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -6,43 +5,17 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
-#include <utility>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "io/file/whole_file.hpp"
 #include "mesh/subdivide.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
 
 namespace condyle::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
 /// An arm hanging from the joint centre and a post in front of it: flexion ends in closed form.
-class RomCommand : public ::testing::Test {
+class RomCommand : public ArmAndPost {
  protected:
-  void SetUp() override {
-    fs::create_directory(here);
-    io::write_mesh(here / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    io::write_mesh(here / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
-    write_joint("arm.ply", "");
-  }
-  void write_joint(const std::string& mobile, const std::string& more) const {
-    std::ofstream(here / "joint.toml") << "condyle = 1\nname = \"arm and post\"\nkind = \"ball\"\n"
-                                          "side = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"post.ply\"\n"
-                                          "[mobile]\nmesh = \""
-                                       << mobile
-                                       << "\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
-                                          "superior = [0, 1, 0]\n"
-                                       << more;
-  }
   void write_fine_meshes() const {
     for (const char* name : {"post.ply", "arm.ply"}) {
       TriMesh mesh = io::read_mesh(here / name).mesh;
@@ -50,9 +23,8 @@ class RomCommand : public ::testing::Test {
       io::write_mesh(here / name, mesh);
     }
   }
-  Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
   void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
-    expect_refusal(run(arguments), exit_code, saying, arguments);
+    CommandTest::expect_refused(exit_code, arguments, saying);
     EXPECT_FALSE(fs::exists(here / "out")) << arguments;
   }
 
@@ -60,45 +32,36 @@ class RomCommand : public ::testing::Test {
   /// With fine meshes more than a million points take many minutes on any machine: never finished here, however late
   /// the interruption comes on a busy one.
   static constexpr const char* long_map = " --map adduction=-30:30:0.05 internal_rotation=-30:30:0.05";
-
-  const TemporaryFolder folder;
-  const fs::path here = folder / "in";
 };
 
 TEST_F(RomCommand, AnswersInTextAndJson) {
-  const Ran text = run("rom joint.toml");
-  EXPECT_EQ(text.exit_code, 0) << text.err;
+  const Ran text = done("rom joint.toml");
   EXPECT_EQ(text.err, "");
   EXPECT_TRUE(text.out.starts_with("arm and post: "));
-  EXPECT_NE(text.out.find("external_rotation_at_90_flexion"), text.out.npos);
+  EXPECT_TRUE(says(text.out, "external_rotation_at_90_flexion"));
 
-  const Ran json = run("rom joint.toml --motion flexion --motion fadir --json");
-  EXPECT_EQ(json.exit_code, 0) << json.err;
-  const Json motions = Json::parse(json.out)["motions"];
+  const Json motions = answer("rom joint.toml --motion flexion --motion fadir")["motions"];
   ASSERT_EQ(motions.size(), 2u);
   EXPECT_EQ(motions[0]["name"], "flexion");
   EXPECT_EQ(motions[0]["reason"], "contact");
   // The arm's lower front edge, (1, -100), meets the post's wall x = 40. Limits are within 4e-12 rad of the
   // truth, 3e-10 degrees.
   const double limit = std::asin(40 / std::hypot(1, 100)) - std::atan2(1, 100);
-  EXPECT_NEAR(motions[0]["limit_deg"].get<double>(), limit * 180 / std::acos(-1), 3e-10);
+  EXPECT_NEAR(motions[0]["limit_deg"], limit * 180 / std::acos(-1), 3e-10);
   EXPECT_EQ(motions[1]["name"], "fadir");
 }
 
 TEST_F(RomCommand, ReadsMotionsOfTheJointFile) {
-  write_joint("arm.ply", "[[motion]]\nname = \"half_way\"\nvary = \"flexion\"\nrange = [0, 10]\n");
-  const Ran ran = run("rom joint.toml --motion half_way --json");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  append("joint.toml", "[[motion]]\nname = \"half_way\"\nvary = \"flexion\"\nrange = [0, 10]\n");
+  const Ran ran = done("rom joint.toml --motion half_way --json");
   EXPECT_EQ(Json::parse(ran.out)["motions"][0]["reason"], "end_of_range");
   expect_refused(2, "rom joint.toml --motion halfway", "half_way");
 }
 
 TEST_F(RomCommand, HoldsLimitsAgainstPeopleLikeTheOneOfTheFileOrOfItsOptions) {
-  write_joint("arm.ply", "[reference_pose]\n[person]\nage = 5\n");
+  append("joint.toml", "[reference_pose]\n[person]\nage = 5\n");
   const auto people = [&](const std::string& options) {
-    const Ran ran = run("rom joint.toml --motion flexion --json" + options);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    const Json people = Json::parse(ran.out)["motions"][0]["living"]["people"];
+    const Json people = answer("rom joint.toml --motion flexion" + options)["motions"][0]["living"]["people"];
     return std::array{people["low_deg"], people["high_deg"]};
   };
   EXPECT_EQ(people(""), (std::array<Json, 2>{131.1, 140.8}));
@@ -110,19 +73,17 @@ TEST_F(RomCommand, HoldsLimitsAgainstPeopleLikeTheOneOfTheFileOrOfItsOptions) {
 
 TEST_F(RomCommand, WritesEveryFileAndOnlyWhole) {
   const std::string command = std::string("rom joint.toml --out out --json") + small_map;
-  const Ran ran = run(command);
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_EQ(io::read_whole_file(here / "out/rom.json"), ran.out);
+  const Ran ran = done(command);
+  EXPECT_EQ(text_of("out/rom.json"), ran.out);
   for (const char* name : {"limits.csv", "map.csv", "map_intervals.csv", "map.vtp"})
     EXPECT_TRUE(fs::exists(here / "out" / name)) << name;
   EXPECT_EQ(Json::parse(ran.out)["map"]["points"], 25);
 }
 
 TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
-  write_joint("arm.ply", "[[motion]]\nname = \"../up & down\"\nvary = \"flexion\"\nrange = [0, 10]\n");
-  const Ran ran = run("rom joint.toml --motion flexion --motion '../up & down' --past 4 --out out --json");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Json motions = Json::parse(ran.out)["motions"];
+  append("joint.toml", "[[motion]]\nname = \"../up & down\"\nvary = \"flexion\"\nrange = [0, 10]\n");
+  const Json motions =
+      answer("rom joint.toml --motion flexion --motion '../up & down' --past 4 --out out")["motions"];
   EXPECT_EQ(motions[0]["zone"]["past_deg"].get<double>(), 4);
   // The post's wall x = 40 is two triangles, and the arm's corner stands in it.
   EXPECT_GT(motions[0]["zone"]["fixed"]["area_mm2"].get<double>(), 0);
@@ -133,10 +94,10 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
   EXPECT_EQ(fixed, io::read_mesh(here / "post.ply").mesh);
   EXPECT_EQ(io::read_mesh(here / "out/zone_01_flexion_mobile.vtp").mesh.triangles,
             io::read_mesh(here / "arm.ply").mesh.triangles);
-  const std::string bytes = io::read_whole_file(here / "out/zone_01_flexion_mobile.vtp");
+  const std::string bytes = text_of("out/zone_01_flexion_mobile.vtp");
   for (const char* name :
        {"radial_depth_mm", "ray_to_normal_deg", "tangential_depth_deg", "tangential_depth_mm", "in_zone"})
-    EXPECT_NE(bytes.find(name), bytes.npos) << name;
+    EXPECT_TRUE(says(bytes, name)) << name;
   // The text has them too, a line for each.
   const std::string text = run("rom joint.toml --motion flexion --past 4").out;
   const std::size_t zones = text.find("  zones 4 deg past the limit");
@@ -151,25 +112,24 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
     std::snprintf(number, sizeof number, "%.*f", decimals, value);
     EXPECT_NE(text.find(number, zones), text.npos) << number << " in\n" << text;
   }
-  EXPECT_EQ(run("rom joint.toml --motion flexion").out.find("zones"), text.npos);
+  EXPECT_FALSE(says(run("rom joint.toml --motion flexion").out, "zones"));
   // No file for the motion without contact, nor one outside the folder.
   for (const auto& entry : fs::recursive_directory_iterator(here))
-    EXPECT_EQ(entry.path().string().find("down"), std::string::npos) << entry.path();
+    EXPECT_FALSE(says(entry.path().string(), "down")) << entry.path();
 }
 
 /// Otherwise a map of another question would stay beside the limits of this one.
 TEST_F(RomCommand, WhatAnEarlierRunWroteIsReplaced) {
-  std::ofstream(here / "notes.txt") << "somebody's";
-  ASSERT_EQ(run(std::string("rom joint.toml --motion flexion --past 4 --out .") + small_map).exit_code, 0);
+  write("notes.txt", "somebody's");
+  done(std::string("rom joint.toml --motion flexion --past 4 --out .") + small_map);
   EXPECT_TRUE(fs::exists(here / "zone_01_flexion_fixed.vtp"));
   for (const char* drawn :
        {"limits.pdf", "limit_bands.png", "clock_face.png", "map_flexion.svg", "map_free_range.pdf"})
-    std::ofstream(here / drawn) << "drawn of it";
-  std::ofstream(here / "map_of_mine.pdf") << "somebody's";
-  const Ran ran = run("rom joint.toml --motion extension --out .");
-  ASSERT_EQ(ran.exit_code, 0);
-  EXPECT_NE(ran.err.find("wrote ./rom.json, ./limits.csv"), ran.err.npos) << ran.err;
-  ASSERT_EQ(run("rom joint.toml --motion extension --out fresh").exit_code, 0);
+    write(drawn, "drawn of it");
+  write("map_of_mine.pdf", "somebody's");
+  const Ran ran = done("rom joint.toml --motion extension --out .");
+  EXPECT_TRUE(says(ran.err, "wrote ./rom.json, ./limits.csv"));
+  done("rom joint.toml --motion extension --out fresh");
   std::set<std::string> left,
       fresh = {"notes.txt", "map_of_mine.pdf", "joint.toml", "post.ply", "arm.ply", "fresh"};
   for (const auto& entry : fs::directory_iterator(here)) left.insert(entry.path().filename());
@@ -178,19 +138,16 @@ TEST_F(RomCommand, WhatAnEarlierRunWroteIsReplaced) {
 }
 
 TEST_F(RomCommand, SaysWhereItComesFromInEveryFile) {
-  const Ran ran = run(
-      std::string("rom --motion flexion --motion fadir --past 4 joint.toml --out out --json") + small_map);
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Json from = Json::parse(ran.out)["provenance"];
+  const Json from = answer(std::string("rom --motion flexion --motion fadir --past 4 joint.toml --out out") +
+                           small_map)["provenance"];
   EXPECT_EQ(from["command"],
             Json({"rom", "joint.toml", "--motion", "flexion", "--motion", "fadir", "--map",
                   "adduction=-10:10:5", "--map", "internal_rotation=-20:20:10", "--past", "4"}));
   const std::string sha = from["fixed_mesh"]["sha256"];
   for (const char* name : {"limits.csv", "map.csv"})
-    EXPECT_NE(io::read_whole_file(here / "out" / name).find(sha), std::string::npos) << name;
+    EXPECT_TRUE(says(io::read_whole_file(here / "out" / name), sha)) << name;
   for (const char* name : {"zone_01_flexion_fixed.vtp", "zone_01_flexion_mobile.vtp"})
-    EXPECT_NE(io::read_whole_file(here / "out" / name).find("Name=\"fixed_mesh\""), std::string::npos)
-        << name;
+    EXPECT_TRUE(says(io::read_whole_file(here / "out" / name), "Name=\"fixed_mesh\"")) << name;
 }
 
 TEST_F(RomCommand, InTheSourceFramePointsAndZonesLieOnTheFiles) {
@@ -200,9 +157,7 @@ TEST_F(RomCommand, InTheSourceFramePointsAndZonesLieOnTheFiles) {
       mesh.vertices.set(v, mesh.vertices[v] + Vec3(8, -4, 2));
     io::write_mesh(here / name, mesh);
   }
-  std::string joint = io::read_whole_file(here / "joint.toml");
-  joint.replace(joint.find("[0, 0, 0]"), 9, "[8, -4, 2]");
-  std::ofstream(here / "joint.toml") << joint;
+  edit("joint.toml", "[0, 0, 0]", "[8, -4, 2]");
   const std::string command = "rom joint.toml --motion flexion --past 4 --out out --json";
   const Json in_joint = Json::parse(run(command).out)["motions"][0];
   const Json in_source = Json::parse(run(command + " --frame source").out)["motions"][0];
@@ -217,20 +172,16 @@ TEST_F(RomCommand, InTheSourceFramePointsAndZonesLieOnTheFiles) {
 }
 
 TEST_F(RomCommand, AllowsADepthOnRequestAndSaysThatTheLimitIsSearchedFor) {
-  const Ran ran = run("rom joint.toml --motion flexion --allow-depth 0.5 --json");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Json answer = Json::parse(ran.out);
-  EXPECT_FALSE(answer["caveats"].empty());
-  EXPECT_LE(answer["motions"][0]["depth"]["at_limit_mm"].get<double>(), 0.5);
-  const Json exact = Json::parse(run("rom joint.toml --motion flexion --json").out)["motions"][0];
-  EXPECT_GE(answer["motions"][0]["limit_deg"].get<double>(), exact["limit_deg"].get<double>());
+  const Json searched = answer("rom joint.toml --motion flexion --allow-depth 0.5");
+  EXPECT_FALSE(searched["caveats"].empty());
+  EXPECT_LE(searched["motions"][0]["depth"]["at_limit_mm"].get<double>(), 0.5);
+  const Json exact = answer("rom joint.toml --motion flexion")["motions"][0];
+  EXPECT_GE(searched["motions"][0]["limit_deg"], exact["limit_deg"]);
 }
 
 TEST_F(RomCommand, GivesTheSameBytesOnOneThreadAndOnMany) {
   for (const char* threads : {"1", "4"})
-    ASSERT_EQ(run(std::string("rom joint.toml --threads ") + threads + " --out out" + threads + small_map)
-                  .exit_code,
-              0);
+    done(std::string("rom joint.toml --threads ") + threads + " --out out" + threads + small_map);
   for (const auto& entry : fs::directory_iterator(here / "out1"))
     EXPECT_EQ(io::read_whole_file(entry.path()), io::read_whole_file(here / "out4" / entry.path().filename()))
         << entry.path();
@@ -263,8 +214,7 @@ TEST_F(RomCommand, WrongUsageIsOneLineAndExitCodeTwo) {
 }
 
 TEST_F(RomCommand, TakesMotionsInAnyCaseAndAsLists) {
-  const Ran ran = run("rom joint.toml --motion FADIR,Flexion --motion faber --json");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const Ran ran = done("rom joint.toml --motion FADIR,Flexion --motion faber --json");
   std::vector<std::string> names;
   const Json answer = Json::parse(ran.out);
   for (const Json& motion : answer["motions"]) names.push_back(motion["name"]);
@@ -272,23 +222,20 @@ TEST_F(RomCommand, TakesMotionsInAnyCaseAndAsLists) {
 }
 
 TEST_F(RomCommand, ListsItsMotions) {
-  const Ran ran = run("rom joint.toml --list-motions");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_NE(
-      ran.out.find(
-          "fadir                            internal_rotation from 0 to 120, flexion 90, adduction 15\n"),
-      std::string::npos)
-      << ran.out;
+  const Ran ran = done("rom joint.toml --list-motions");
+  EXPECT_TRUE(
+      says(ran.out,
+           "fadir                            internal_rotation from 0 to 120, flexion 90, adduction 15\n"));
   EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), '\n'), 12);
 }
 
 TEST_F(RomCommand, BandsStandBesideLimitsAndInEveryFile) {
   expect_refused(2, "rom joint.toml --out out --band=3", "20 samples or more");
   expect_refused(2, "rom joint.toml --out out --seed 4", "requires --band");
-  const Ran ran = run("rom joint.toml --motion flexion --band=40 --sigma-axes 0 --sigma-surface 0 --out out");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_NE(ran.out.find("\xC2\xB0 ("), std::string::npos) << ran.out;
-  EXPECT_NE(ran.out.find("band: 5 to 95 % of 40 joints"), std::string::npos);
+  const Ran ran =
+      done("rom joint.toml --motion flexion --band=40 --sigma-axes 0 --sigma-surface 0 --out out");
+  EXPECT_TRUE(says(ran.out, "\xC2\xB0 ("));
+  EXPECT_TRUE(says(ran.out, "band: 5 to 95 % of 40 joints"));
   const Json json = Json::parse(std::ifstream(here / "out" / "rom.json"));
   EXPECT_EQ(json["band"]["samples"], 40);
   const Json& band = json["motions"][0]["band"];
@@ -297,26 +244,25 @@ TEST_F(RomCommand, BandsStandBesideLimitsAndInEveryFile) {
   EXPECT_EQ(band["width_from"]["axes_deg"], 0.0);
   EXPECT_EQ(run("rom joint.toml --motion flexion --band=40 --threads 1 --json").out,
             run("rom joint.toml --motion flexion --band=40 --threads 2 --json").out);
-  EXPECT_NE(run("rom joint.toml").out.find("band unknown"), std::string::npos);
+  EXPECT_TRUE(says(run("rom joint.toml").out, "band unknown"));
 }
 
 /// The printed table fits a terminal: it has the figures that people quote; all else is in rom.json and limits.csv.
 TEST_F(RomCommand, PrintedLinesFitATerminal) {
   for (const char* options : {"", " --frame source", " --map flexion=0:10:10 adduction=0:10:10",
                               " --band=20 --past 5", " --allow-depth 1"}) {
-    std::istringstream out(run(std::string("rom joint.toml") + options).out);
-    std::size_t lines = 0;
-    for (std::string line; std::getline(out, line); ++lines) {
+    const auto lines = lines_of(run(std::string("rom joint.toml") + options).out);
+    for (const std::string& line : lines) {
       const auto letters =
           std::count_if(line.begin(), line.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
       EXPECT_LE(letters, 100) << line;
     }
-    EXPECT_GT(lines, 12u) << options;
+    EXPECT_GT(lines.size(), 12u) << options;
   }
 }
 
 TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {
-  std::ofstream(here / "file") << "in the way";
+  write("file", "in the way");
   const Ran ran = run(std::string("rom joint.toml --out file") + long_map);
   EXPECT_EQ(ran.exit_code, 3);
   EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
@@ -324,12 +270,10 @@ TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {
 
 TEST_F(RomCommand, BodiesInContactInTheReferencePoseAreExitCodeSixWithoutAnOption) {
   io::write_mesh(here / "fat.ply", box({-1, -100, -2}, {41, -10, 2}));
-  write_joint("fat.ply", "");
+  write("joint.toml", text_of_joint({.mobile = "fat.ply"}));
   expect_refused(6, "rom joint.toml --out out", "in contact in the reference pose");
   expect_refused(6, "rom joint.toml --motion flexion --json", "--accept-reference-contact");
-  const Ran ran = run("rom joint.toml --accept-reference-contact --json");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Json answer = Json::parse(ran.out);
+  const Json answer = this->answer("rom joint.toml --accept-reference-contact");
   EXPECT_EQ(answer["motions"][0]["reason"], "contact_at_start");
   EXPECT_EQ(answer["motions"][0]["limit_deg"], 0.0);
   EXPECT_FALSE(answer["caveats"].empty());
@@ -361,7 +305,7 @@ TEST_F(RomCommand, AnInterruptedMapLeavesNothingAndSaysSoInOneLine) {
     EXPECT_EQ(ran.exit_code, 130) << ran.err;
     EXPECT_EQ(ran.out, "");
     EXPECT_TRUE(is_one_error_line(last_line(ran.err))) << ran.err;
-    EXPECT_NE(ran.err.find("map points; nothing is written"), ran.err.npos) << ran.err;
+    EXPECT_TRUE(says(ran.err, "map points; nothing is written"));
     EXPECT_FALSE(fs::exists(here / "out"));
   }
 }

@@ -1,17 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-#include <string>
-
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
 #include "condyle/sample/cartilages.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace condyle::test {
 namespace {
-
-using Json = nlohmann::json;
 
 /// The cartilages as `condyle sample cartilages` writes them, in the folder `made`.
 struct Made {

@@ -1,29 +1,18 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <utility>
-
 #include "command.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/sample/hip.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace condyle::test {
 namespace {
 
-Ran made_implant(const TemporaryFolder& folder, const std::string& arguments) {
-  return run_condyle(folder.path(), "sample " + arguments);
-}
+class SampleReplacementCommand : public CommandTest {};
+class SampleReverseShoulder : public CommandTest {};
+class SampleImplants : public CommandTest {};
 
-TEST(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInTheJointFile) {
-  const TemporaryFolder folder;
-  const Ran ran =
-      made_implant(folder,
-                   "replacement --inclination 45 --anteversion 20 --definition anatomic --neck-shaft 130 "
-                   "--head-radius 18 --neck-taper 2 --facets 120 --side left --out made");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+TEST_F(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInTheJointFile) {
+  done(
+      "sample replacement --inclination 45 --anteversion 20 --definition anatomic --neck-shaft 130 "
+      "--head-radius 18 --neck-taper 2 --facets 120 --side left --out made");
   plan::TotalHip hip;
   hip.cup = {Angle::degrees(45), Angle::degrees(20), CupDefinition::anatomic};
   hip.neck_shaft = Angle::degrees(130), hip.head_radius_mm = 18, hip.neck_taper = Angle::degrees(2);
@@ -41,12 +30,9 @@ TEST(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInT
   EXPECT_EQ(file.uncertainty.surface_mm, 0);
 }
 
-TEST(SampleReplacementCommand, HasBandsOfItsAxesInWhichTheHeadNeverMeetsTheLiner) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(made_implant(folder, "replacement --bones none --facets 120 --out made").exit_code, 0);
-  const Ran rom = run_condyle(folder.path(), "rom made/hip.toml --motion flexion --band=20 --json");
-  ASSERT_EQ(rom.exit_code, 0) << rom.err;
-  const auto motion = nlohmann::json::parse(rom.out)["motions"][0];
+TEST_F(SampleReplacementCommand, HasBandsOfItsAxesInWhichTheHeadNeverMeetsTheLiner) {
+  done("sample replacement --bones none --facets 120 --out made");
+  const Json motion = answer("rom made/hip.toml --motion flexion --band=20")["motions"][0];
   // Axes 1 degree off about each of the three turn a limit by some degrees, cups of 4 and stems of 2 by more; a head in its liner would
   // end it anywhere.
   EXPECT_GT(motion["band"]["p5_deg"], motion["limit_deg"].get<double>() - 20);
@@ -55,17 +41,14 @@ TEST(SampleReplacementCommand, HasBandsOfItsAxesInWhichTheHeadNeverMeetsTheLiner
   EXPECT_GT(motion["band"]["width_from"]["parameters_deg"], motion["band"]["width_from"]["axes_deg"]);
 }
 
-TEST(SampleReplacementCommand, NamesThePartsThatEndMotions) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(made_implant(folder, "replacement --out made").exit_code, 0);
-  const Ran rom = run_condyle(folder.path(), "rom made/hip.toml");
-  EXPECT_EQ(rom.exit_code, 0) << rom.err;
-  EXPECT_NE(rom.out.find("neck on liner: flexion"), std::string::npos) << rom.out;
-  EXPECT_NE(rom.out.find("femur on hip_bone: adduction"), std::string::npos) << rom.out;
+TEST_F(SampleReplacementCommand, NamesThePartsThatEndMotions) {
+  done("sample replacement --out made");
+  const Ran rom = done("rom made/hip.toml");
+  EXPECT_TRUE(says(rom.out, "neck on liner: flexion"));
+  EXPECT_TRUE(says(rom.out, "femur on hip_bone: adduction"));
 }
 
-TEST(SampleReplacementCommand, RefusesWrongSizesInOneLineAndWritesNothing) {
-  const TemporaryFolder folder;
+TEST_F(SampleReplacementCommand, RefusesWrongSizesInOneLineAndWritesNothing) {
   for (const auto& [arguments, line] :
        {std::pair("replacement --head-radius 28",
                   "condyle: implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: "
@@ -80,16 +63,15 @@ TEST(SampleReplacementCommand, RefusesWrongSizesInOneLineAndWritesNothing) {
                   "condyle: implant: the neck ends 22 mm from the centre of the head, too near to a cup of "
                   "radius 25 mm "
                   "outside: it must end 2 mm beyond, by a larger pillar_length\n")}) {
-    const Ran ran = made_implant(folder, std::string(arguments) + " --out made");
+    const Ran ran = run(std::string("sample ") + arguments + " --out made");
     EXPECT_EQ(ran.exit_code, 2);
     EXPECT_EQ(ran.err, line);
-    EXPECT_FALSE(std::filesystem::exists(folder / "made"));
+    EXPECT_FALSE(fs::exists(here / "made"));
   }
 }
 
-TEST(SampleReverseShoulder, IsAShoulderWithItsSizesInTheJointFile) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(made_implant(folder, "reverse-shoulder --retroversion 25 --out made").exit_code, 0);
+TEST_F(SampleReverseShoulder, IsAShoulderWithItsSizesInTheJointFile) {
+  done("sample reverse-shoulder --retroversion 25 --out made");
   const io::JointFile file = io::read_joint_file(folder / "made/shoulder.toml");
   EXPECT_EQ(file.joint.anatomy, Anatomy::shoulder);
   plan::ReverseShoulder expected;
@@ -99,16 +81,12 @@ TEST(SampleReverseShoulder, IsAShoulderWithItsSizesInTheJointFile) {
 }
 
 /// A head on the scapula is what makes a shoulder reverse, and facets stand out of a sphere by hundredths of a millimetre.
-TEST(SampleImplants, HaveNothingThatLooksWrong) {
-  const TemporaryFolder folder;
+TEST_F(SampleImplants, HaveNothingThatLooksWrong) {
   for (const char* sample : {"replacement", "replacement --bones none --side left", "reverse-shoulder"}) {
-    ASSERT_EQ(made_implant(folder, std::string(sample) + " --out made").exit_code, 0);
-    const char* joint =
-        std::filesystem::exists(folder / "made/hip.toml") ? "made/hip.toml" : "made/shoulder.toml";
-    const Ran rom = run_condyle(folder.path(), std::string("rom --strict --json ") + joint);
-    ASSERT_EQ(rom.exit_code, 0) << rom.err;
-    EXPECT_EQ(nlohmann::json::parse(rom.out)["notes"], nlohmann::json::array()) << sample;
-    std::filesystem::remove_all(folder / "made");
+    done(std::string("sample ") + sample + " --out made");
+    const char* joint = fs::exists(folder / "made/hip.toml") ? "made/hip.toml" : "made/shoulder.toml";
+    EXPECT_EQ(answer(std::string("rom --strict ") + joint)["notes"], Json::array()) << sample;
+    fs::remove_all(here / "made");
   }
 }
 

@@ -1,23 +1,10 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "command.hpp"
-#include "io/file/whole_file.hpp"
 #include "support/small_cohort.hpp"
-#include "support/temporary_folder.hpp"
 
 /// `condyle merge` takes each row of a table, and each design of a sweep, once, from the shard that has it.
 
 namespace condyle::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Sharded {
   const char* name;
@@ -44,16 +31,15 @@ const std::vector<Sharded> sharded_commands = {
 
 constexpr int shard_count = 4;
 
-class Shards : public ::testing::TestWithParam<Sharded> {
+class Shards : public CommandTest, public ::testing::WithParamInterface<Sharded> {
  protected:
   void SetUp() override {
     sample_into(here, "replacement --facets 24");
-    std::ofstream(here / "daily.csv") << "name,motion,reach_deg\nsitting,flexion,110\n";
-    ASSERT_EQ(answer("--out whole").exit_code, 0);
-    for (int i = 1; i <= shard_count; ++i) ASSERT_EQ(answer_shard(i).exit_code, 0);
+    write("daily.csv", "name,motion,reach_deg\nsitting,flexion,110\n");
+    EXPECT_EQ(answer("--out whole").exit_code, 0);
+    for (int i = 1; i <= shard_count; ++i) EXPECT_EQ(answer_shard(i).exit_code, 0);
     fs::copy(here / "out", here / "made", fs::copy_options::recursive);
   }
-  Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
   Ran answer(const std::string& more) const { return run(fmt::format("{} {}", GetParam().command, more)); }
   Ran answer_shard(int i) const { return answer(fmt::format("--out out --shard {}/{}", i, shard_count)); }
   fs::path shard(int i) const { return here / fmt::format("out/shards/{}_of_{}", i, shard_count); }
@@ -61,27 +47,20 @@ class Shards : public ::testing::TestWithParam<Sharded> {
     fs::remove_all(here / "out");
     fs::copy(here / "made", here / "out", fs::copy_options::recursive);
   }
-  void expect_refused(const std::string& naming, const std::string& what) const {
+  void expect_merge_refused(const std::string& naming, const std::string& what) const {
     expect_refusal(run("merge out"), 3, naming, what);
     EXPECT_FALSE(fs::exists(here / "out" / GetParam().record)) << what;
     put_back();
   }
   void expect_whole() const {
-    const Ran merged = run("merge out");
-    EXPECT_EQ(merged.exit_code, 0) << merged.err;
+    done("merge out");
     for (const std::string& name : GetParam().results)
       EXPECT_EQ(io::read_whole_file(here / "out" / name), io::read_whole_file(here / "whole" / name)) << name;
   }
   void replace_in_record(int i, const std::string& before, const std::string& after) const {
-    const fs::path record = shard(i) / GetParam().record;
-    std::string text = io::read_whole_file(record);
-    const std::size_t at = text.find(before);
-    ASSERT_NE(at, text.npos) << before;
-    std::ofstream(record, std::ios::binary) << text.replace(at, before.size(), after);
+    edit(fmt::format("out/shards/{}_of_{}/{}", i, shard_count, GetParam().record), before, after);
   }
 
-  const TemporaryFolder folder;
-  const fs::path here = folder / "in";
   const SmallCohort cohort{here, 9};
 };
 
@@ -90,31 +69,31 @@ TEST_P(Shards, ThatWereCopiedSwappedOrRenamedAreRefusedByName) {
     const int other = i % shard_count + 1;
     fs::remove_all(shard(other));
     fs::copy(shard(i), shard(other));
-    expect_refused(fmt::format("out/shards/{}_of_4/{}: is of shard {} of 4", other, GetParam().record, i),
-                   "copied");
+    expect_merge_refused(
+        fmt::format("out/shards/{}_of_4/{}: is of shard {} of 4", other, GetParam().record, i), "copied");
     fs::rename(shard(i), here / "aside");
     fs::rename(shard(other), shard(i));
     fs::rename(here / "aside", shard(other));
-    expect_refused(fmt::format("/{}: is of shard ", GetParam().record), "swapped");
+    expect_merge_refused(fmt::format("/{}: is of shard ", GetParam().record), "swapped");
   }
   fs::rename(shard(4), here / "out/shards/4_of_5");
-  expect_refused("shards of 4 and of 5", "one renamed");
+  expect_merge_refused("shards of 4 and of 5", "one renamed");
   for (int i = 1; i <= 3; ++i) fs::rename(shard(i), here / fmt::format("out/shards/{}_of_3", i));
   fs::remove_all(shard(4));
-  expect_refused(fmt::format("out/shards/1_of_3/{}: is of shard 1 of 4, in the folder of shard 1 of 3",
-                             GetParam().record),
-                 "all renamed, one lost");
+  expect_merge_refused(fmt::format("out/shards/1_of_3/{}: is of shard 1 of 4, in the folder of shard 1 of 3",
+                                   GetParam().record),
+                       "all renamed, one lost");
   expect_whole();
 }
 
 TEST_P(Shards, OfAnotherVersionAreRefusedByName) {
   for (int i = 1; i <= shard_count; ++i) {
     replace_in_record(i, GetParam().version + std::string("0."), GetParam().version + std::string("9."));
-    expect_refused(fmt::format("out/shards/{}_of_4/{}: is of version 9.", i, GetParam().record), "one");
+    expect_merge_refused(fmt::format("out/shards/{}_of_4/{}: is of version 9.", i, GetParam().record), "one");
   }
   for (int i = 1; i <= shard_count; ++i)
     replace_in_record(i, GetParam().version + std::string("0."), GetParam().version + std::string("9."));
-  expect_refused("is of version 9.", "all");
+  expect_merge_refused("is of version 9.", "all");
 }
 
 TEST_P(Shards, OfInputsThatAreOthersNowAreRefusedByName) {
@@ -122,10 +101,10 @@ TEST_P(Shards, OfInputsThatAreOthersNowAreRefusedByName) {
   for (const std::string& file :
        is_study ? std::vector<std::string>{"post1.ply", "post9.ply", "hip4.toml", "arm.ply", "table.csv"}
                 : std::vector<std::string>{"neck.ply", "hip.toml", "daily.csv"}) {
-    const std::string before = io::read_whole_file(here / file);
-    std::ofstream(here / file, std::ios::app) << "\n";
-    expect_refused(file + ": is another since ", file);
-    std::ofstream(here / file, std::ios::binary) << before;
+    const std::string before = text_of(file);
+    append(file, "\n");
+    expect_merge_refused(file + ": is another since ", file);
+    write(file, before);
   }
   // Where inputs are no more, shards are merged as they are.
   fs::create_directory(here / "elsewhere");
@@ -137,10 +116,10 @@ TEST_P(Shards, OfInputsThatAreOthersNowAreRefusedByName) {
 TEST_P(Shards, AreMadeAnewByTheirCommandAfterARefusal) {
   fs::remove_all(shard(2));
   fs::copy(shard(1), shard(2));
-  expect_refusal(run("merge out"), 3, "2_of_4", "copied");
+  CommandTest::expect_refused(3, "merge out", "2_of_4");
   const Ran again = answer_shard(2);
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(again.err.find("is there already"), again.err.npos);
+  EXPECT_FALSE(says(again.err, "is there already"));
   expect_whole();
 }
 

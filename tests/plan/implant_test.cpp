@@ -15,6 +15,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
+#include "plan/safe_zones.hpp"
 
 /// Implants against the closed forms of docs/mathematics/13-implants.md, and meshes against both.
 
@@ -32,82 +33,25 @@ plan::CupAngles cup(double inclination, double anteversion,
 struct Design {
   const char* name;
   double inclination, anteversion, neck_shaft, version, head, neck, reach, half_angle;
-  /// Limits in the order of hip_motions(); -1 for the end of the range.
-  std::array<double, 12> limits;
 };
 
 /// Designs and their limits to 1e-4 degrees, computed independently of this code: by the closed form, A, B and E by meshes too.
 const Design designs[] = {
-    {"A",
-     40,
-     15,
-     135,
-     15,
-     16,
-     6,
-     90,
-     67.9757,
-     {128.7064, 61.1268, 59.5838, 67.5978, -1, 70.5273, -1, 45.3956, 38.6748, 108.6748, 30.7376, -1}},
-    {"B",
-     45,
-     20,
-     135,
-     15,
-     18,
-     6,
-     90,
-     70.5288,
-     {144.5010, 61.0067, 65.6158, 63.6298, -1, 62.7349, -1, 54.4941, 52.0859, 112.0859, 44.2217, -1}},
-    {"C",
-     40,
-     15,
-     125,
-     10,
-     14,
-     6,
-     90,
-     64.6231,
-     {132.1862, 65.7721, 46.2858, 75.4594, -1, 56.9386, 73.7332, 48.1649, 29.2663, 109.2663, 24.4711, -1}},
-    {"D",
-     50,
-     5,
-     130,
-     5,
-     18,
-     6.5,
-     90,
-     68.8316,
-     {135.6716, -1, 68.4441, 68.2289, 106.4383, 83.4074, -1, 31.8628, 31.4352, 101.4352, 20.1107, -1}},
-    {"E",
-     35,
-     25,
-     127,
-     20,
-     16,
-     5,
-     85,
-     76.7900,
-     {160.6957, 52.5694, 50.4907, 83.0374, -1, 54.9653, 87.3278, 88.0955, 57.0441, -1, 54.7120, -1}},
-    {"F",
-     45,
-     15,
-     135,
-     0,
-     20,
-     6,
-     95,
-     67.5424,
-     {122.0266, 80.5195, 66.7044, 66.7044, -1, 80.5195, 82.7130, 34.2201, 28.0620, 118.0620, 18.8545, -1}},
-    {"G",
-     30,
-     10,
-     132,
-     15,
-     16,
-     6.75,
-     90,
-     65.0470,
-     {111.0629, 55.9717, 44.8840, 78.9053, -1, 78.1255, 83.3512, 36.2233, 20.3117, 110.3117, 14.2686, -1}},
+    {"A", 40, 15, 135, 15, 16, 6, 90, 67.9757},    {"B", 45, 20, 135, 15, 18, 6, 90, 70.5288},
+    {"C", 40, 15, 125, 10, 14, 6, 90, 64.6231},    {"D", 50, 5, 130, 5, 18, 6.5, 90, 68.8316},
+    {"E", 35, 25, 127, 20, 16, 5, 85, 76.7900},    {"F", 45, 15, 135, 0, 20, 6, 95, 67.5424},
+    {"G", 30, 10, 132, 15, 16, 6.75, 90, 65.0470},
+};
+
+/// Their limits in the order of hip_motions(); -1 for the end of the range.
+constexpr std::array<double, 12> limits_of_designs[] = {
+    {128.7064, 61.1268, 59.5838, 67.5978, -1, 70.5273, -1, 45.3956, 38.6748, 108.6748, 30.7376, -1},
+    {144.5010, 61.0067, 65.6158, 63.6298, -1, 62.7349, -1, 54.4941, 52.0859, 112.0859, 44.2217, -1},
+    {132.1862, 65.7721, 46.2858, 75.4594, -1, 56.9386, 73.7332, 48.1649, 29.2663, 109.2663, 24.4711, -1},
+    {135.6716, -1, 68.4441, 68.2289, 106.4383, 83.4074, -1, 31.8628, 31.4352, 101.4352, 20.1107, -1},
+    {160.6957, 52.5694, 50.4907, 83.0374, -1, 54.9653, 87.3278, 88.0955, 57.0441, -1, 54.7120, -1},
+    {122.0266, 80.5195, 66.7044, 66.7044, -1, 80.5195, 82.7130, 34.2201, 28.0620, 118.0620, 18.8545, -1},
+    {111.0629, 55.9717, 44.8840, 78.9053, -1, 78.1255, 83.3512, 36.2233, 20.3117, 110.3117, 14.2686, -1},
 };
 
 plan::TotalHip total_hip_of(const Design& d, int facets = plan::default_facets) {
@@ -235,14 +179,15 @@ TEST(ContactHalfAngle, OfConesAndChamfers) {
 
 TEST(ClosedLimit, IsThatOfTheTables) {
   const std::vector<motion::Motion> motions = motion::hip_motions();
-  for (const Design& d : designs) {
+  for (std::size_t i = 0; i < std::size(designs); ++i) {
+    const Design& d = designs[i];
     const auto pair = *plan::revolved_pair(total_hip_of(d), Side::right);
     for (std::size_t m = 0; m < motions.size(); ++m) {
       const plan::ClosedLimit limit = plan::closed_limit(pair, right_hip, motions[m]);
-      const bool ends = d.limits[m] < 0;
+      const bool ends = limits_of_designs[i][m] < 0;
       EXPECT_EQ(limit.reason, ends ? motion::LimitReason::end_of_range : motion::LimitReason::contact)
           << d.name << motions[m].name;
-      EXPECT_NEAR(limit.turned.degrees(), ends ? motions[m].range.degrees() : d.limits[m], 6e-5)
+      EXPECT_NEAR(limit.turned.degrees(), ends ? motions[m].range.degrees() : limits_of_designs[i][m], 6e-5)
           << d.name << " " << motions[m].name;
     }
   }
@@ -295,22 +240,10 @@ TEST(ClosedLimit, SaysContactAtTheStartAndThatNothingMeets) {
 }
 
 /// {(RI, RA): every target is free}: the intervals of RA that are free at an RI, by halving.
-struct Target {
-  const char* motion;
-  double reach;
-};
-constexpr std::array targets{Target{"flexion", 110},
-                             Target{"extension", 30},
-                             Target{"internal_rotation_at_90_flexion", 30},
-                             Target{"external_rotation", 40},
-                             Target{"abduction", 45},
-                             Target{"adduction", 20},
-                             Target{"adduction_at_90_flexion", 10}};
-
 bool is_safe(const Vec3& neck, Angle half_angle, double ri, double ra) {
   static const std::vector<motion::Motion> motions = [] {
     std::vector<motion::Motion> all;
-    for (const auto& [name, reach] : targets) {
+    for (const auto& [name, reach] : zone_targets) {
       all.push_back(motion::motion_named(motion::hip_motions(), name));
       all.back().range = Angle::degrees(reach);
     }
@@ -341,44 +274,14 @@ std::array<double, 2> free_anteversion(const Vec3& neck, Angle half_angle, doubl
 }
 
 TEST(SafeZone, HasTheAreasAndBordersOfTheTables) {
-  struct Zone {
-    double neck_shaft, version, head, neck, area;
-    std::array<std::array<double, 2>, 4> at;  ///< RI 35, 40, 45, 50
-  };
-  const Zone zones[] = {
-      {135,
-       15,
-       16,
-       6,
-       658.125,
-       {{{11.2369, 32.4068}, {6.3320, 31.9068}, {1.7514, 31.0689}, {-2.4486, 29.8754}}}},
-      {135,
-       15,
-       18,
-       6,
-       818.368,
-       {{{7.6080, 34.9678}, {2.8258, 34.4907}, {-1.6271, 33.6911}, {-5.7009, 32.5523}}}},
-      {127,
-       5,
-       18,
-       6,
-       622.383,
-       {{{19.6889, 34.8306}, {12.6346, 36.0835}, {5.8768, 36.1254}, {-0.3976, 35.8579}}}},
-      {135,
-       25,
-       14,
-       5,
-       782.216,
-       {{{0.2912, 28.2969}, {-3.8534, 27.3609}, {-7.5898, 26.0803}, {-10.9091, 24.4341}}}},
-  };
   for (const Zone& zone : zones) {
     const Vec3 neck =
         plan::neck_axis(Angle::degrees(zone.neck_shaft), Angle::degrees(zone.version), Side::right);
     const Angle half = plan::contact_half_angle({zone.head, zone.head + 5}, {zone.neck});
     for (int i = 0; i < 4; ++i) {
       const auto [low, high] = free_anteversion(neck, half, 35 + 5 * i, 2);
-      EXPECT_NEAR(low, zone.at[i][0], 6e-5);
-      EXPECT_NEAR(high, zone.at[i][1], 6e-5);
+      EXPECT_NEAR(low, zone.free[i][0], 6e-5);
+      EXPECT_NEAR(high, zone.free[i][1], 6e-5);
     }
     constexpr int strips = 100;
     double area = 0;
@@ -530,35 +433,40 @@ std::string refused(const plan::Implant& implant) {
 }
 
 TEST(TotalHip, RefusesWrongSizesInOneLine) {
-  const auto with = [](auto change) {
-    plan::TotalHip hip;
-    change(hip);
-    return refused(hip);
+  using Hip = plan::TotalHip;
+  struct Wrong {
+    void (*make)(Hip&);
+    const char* line;
   };
-  EXPECT_EQ(with([](plan::TotalHip&) {}), "");
-  EXPECT_EQ(
-      with([](plan::TotalHip& h) { h.head_radius_mm = 28; }),
-      "implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: its wall needs 1 mm");
-  EXPECT_EQ(with([](plan::TotalHip& h) { h.clearance_mm = -1; }),
-            "implant: a clearance of -1 mm makes the head larger than the liner");
-  EXPECT_EQ(with([](plan::TotalHip& h) { h.neck_radius_mm = 17; }),
-            "implant: the neck, of radius 17 mm, is thicker than the head, of radius 15.5 mm");
-  EXPECT_EQ(with([](plan::TotalHip& h) { h.cup.inclination = Angle::degrees(-5); }),
-            "implant: inclination is -5, must be 0 to 90 degrees");
-  EXPECT_EQ(with([](plan::TotalHip& h) { h.neck_radius_mm = std::numeric_limits<double>::quiet_NaN(); }),
-            "implant: neck_radius is nan, must be 2 to 20 mm");
-  EXPECT_EQ(with([](plan::TotalHip& h) { h.facets = 181; }),
-            "implant: facets is 181, must be a multiple of 4 from 24 to 2880");
-  EXPECT_EQ(with([](plan::TotalHip& h) { h.offset_mm = 20; }),
-            "implant: the neck ends 16.3 mm from the centre of the head, too near to a cup of radius 27 mm "
-            "outside: "
-            "it must end 2 mm beyond, by a larger offset");
-  EXPECT_EQ(with([](plan::TotalHip& h) { h.neck_lower_width_mm = 9; }),
-            "implant: a trapezoid neck has both widths, neck_upper_width and neck_lower_width");
-  EXPECT_NE(with([](plan::TotalHip& h) { h.chamfer = Angle::degrees(30), h.cup_radius_mm = 18; }), "");
-  EXPECT_NE(with([](plan::TotalHip& h) { h.neck_taper = Angle::degrees(-8), h.neck_radius_mm = 4; }), "");
-  EXPECT_NE(with([](plan::TotalHip& h) { h.neck_radius_mm = 15, h.liner_half_angle = Angle::degrees(119); }),
-            "");
+  EXPECT_EQ(refused(Hip{}), "");
+  for (const auto& [make, line] :
+       {Wrong{[](Hip& h) { h.head_radius_mm = 28; },
+              "a head of radius 28 mm is too large for a cup of radius 27 mm outside: its wall needs 1 mm"},
+        {[](Hip& h) { h.clearance_mm = -1; }, "a clearance of -1 mm makes the head larger than the liner"},
+        {[](Hip& h) { h.neck_radius_mm = 17; },
+         "the neck, of radius 17 mm, is thicker than the head, of radius 15.5 mm"},
+        {[](Hip& h) { h.cup.inclination = Angle::degrees(-5); },
+         "inclination is -5, must be 0 to 90 degrees"},
+        {[](Hip& h) { h.neck_radius_mm = std::numeric_limits<double>::quiet_NaN(); },
+         "neck_radius is nan, must be 2 to 20 mm"},
+        {[](Hip& h) { h.facets = 181; }, "facets is 181, must be a multiple of 4 from 24 to 2880"},
+        {[](Hip& h) { h.offset_mm = 20; },
+         "the neck ends 16.3 mm from the centre of the head, too near to a cup of radius 27 mm outside: it "
+         "must "
+         "end 2 mm beyond, by a larger offset"},
+        {[](Hip& h) { h.neck_lower_width_mm = 9; },
+         "a trapezoid neck has both widths, neck_upper_width and neck_lower_width"}}) {
+    Hip hip;
+    make(hip);
+    EXPECT_EQ(refused(hip), std::string("implant: ") + line);
+  }
+  for (const auto make : {+[](Hip& h) { h.chamfer = Angle::degrees(30), h.cup_radius_mm = 18; },
+                          +[](Hip& h) { h.neck_taper = Angle::degrees(-8), h.neck_radius_mm = 4; },
+                          +[](Hip& h) { h.neck_radius_mm = 15, h.liner_half_angle = Angle::degrees(119); }}) {
+    Hip hip;
+    make(hip);
+    EXPECT_NE(refused(hip), "");
+  }
 }
 
 TEST(ImplantParameters, ReadAndWriteEachSize) {

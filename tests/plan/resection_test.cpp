@@ -64,6 +64,13 @@ plan::ResectionOptions reaching(std::vector<plan::ReachTarget> targets) {
   return request;
 }
 
+/// The same, whatever bears.
+plan::ResectionOptions reaching_with_every_contact(std::vector<plan::ReachTarget> targets) {
+  plan::ResectionOptions request = reaching(std::move(targets));
+  request.range.bearing.rule = motion::BearingRule::count;
+  return request;
+}
+
 void expect_sound(const plan::CutBone& cut) {
   EXPECT_TRUE(cut.body.mesh.is_closed());
   EXPECT_EQ(mesh::self_crossings_of(cut.body.mesh).pairs, 0);
@@ -95,6 +102,16 @@ void expect_reached(const Joint& before, const plan::Resection& done,
     EXPECT_GE(is[i].end.turned.degrees(), was[i].end.turned.degrees() - 1e-9) << motions[i].name;
 }
 
+/// The cut, sound and with the limits that it is for.
+plan::Resection resected(const Joint& joint, const plan::ResectionOptions& request) {
+  plan::Resection done = plan::resect(joint, request);
+  EXPECT_TRUE(done.mobile || done.fixed);
+  expect_reached(joint, done, request.range);
+  for (const auto* cut : {&done.mobile, &done.fixed})
+    if (*cut) expect_sound(**cut);
+  return done;
+}
+
 struct NeckCase {
   double R, a, outer, limit, target, volume, area, depth;
   double volume_within;
@@ -106,11 +123,9 @@ TEST(Resection, ANeckInASocketLosesWhatTheClosedFormSays) {
        {NeckCase{25, 15, endless, 53.130102, 65, 356.680106, 215.932501, 4.434543, 0.001},
         {16, 6, endless, 67.975687, 70, 1.234676, 5.949339, 0.527678, 0.01}}) {
     const Joint joint = hip_of(socket(each.R, each.outer), neck(each.a));
-    const plan::Resection done = plan::resect(joint, reaching({target("flexion", each.target)}));
+    const plan::Resection done = resected(joint, reaching({target("flexion", each.target)}));
     ASSERT_TRUE(done.mobile);
     EXPECT_NEAR(done.targets[0].before.end.turned.degrees(), each.limit, 0.02);
-    expect_reached(joint, done);
-    expect_sound(*done.mobile);
     EXPECT_NEAR(done.mobile->volume_mm3 / each.volume, 1, each.volume_within);
     EXPECT_NEAR(done.mobile->least_volume_mm3 / each.volume, 1, 0.01);
     EXPECT_NEAR(done.mobile->area_mm2 / each.area, 1,
@@ -123,9 +138,7 @@ TEST(Resection, ANeckInASocketLosesWhatTheClosedFormSays) {
 TEST(Resection, WhatMustGoUnderAWallIsTheClosedForm) {
   const NeckCase each{16, 6, 20, 67.975687, 75, 30.817788, 36.055234, 1.858895, 0.05};
   const Joint joint = hip_of(socket(each.R, each.outer), neck(each.a));
-  const plan::Resection done = plan::resect(joint, reaching({target("flexion", each.target)}));
-  expect_reached(joint, done);
-  expect_sound(*done.mobile);
+  const plan::Resection done = resected(joint, reaching({target("flexion", each.target)}));
   EXPECT_NEAR(done.mobile->least_volume_mm3 / each.volume, 1, 0.01);
   EXPECT_GT(done.mobile->volume_mm3, each.volume);
   EXPECT_LT(done.mobile->volume_mm3, (1 + each.volume_within) * each.volume);
@@ -137,11 +150,8 @@ TEST(LongResection, DeepCutsUnderAWallAreReached) {
   for (const auto& [R, a, outer, reach, volume, most] :
        {std::array{25., 15., 30., 65., 287.130333, 306.}, std::array{24., 12., 27., 75., 261.302985, 353.}}) {
     const Joint joint = hip_of(socket(R, outer), neck(a));
-    plan::ResectionOptions request = reaching({target("flexion", reach)});
-    request.range.bearing.rule = motion::BearingRule::count;
-    const plan::Resection done = plan::resect(joint, request);
-    expect_reached(joint, done, request.range);
-    expect_sound(*done.mobile);
+    plan::ResectionOptions request = reaching_with_every_contact({target("flexion", reach)});
+    const plan::Resection done = resected(joint, request);
     std::printf("%.1f mm3 of which %.1f must, %.2f mm deep\n", done.mobile->volume_mm3,
                 done.mobile->least_volume_mm3, done.mobile->deepest_mm);
     EXPECT_NEAR(done.mobile->least_volume_mm3 / volume, 1, 0.002);
@@ -157,17 +167,14 @@ TEST(Resection, ANeckInACupLosesWhatQuadratureSays) {
   const Vec3 along =
       Eigen::AngleAxisd(-15 * degree, Vec3::UnitY()) * Vec3(0, -std::cos(shaft), std::sin(shaft));
   const Joint joint = hip_of(socket(16, 20, opening), neck(6, along));
-  plan::ResectionOptions request = reaching({target("flexion", 135)});
-  request.range.bearing.rule = motion::BearingRule::count;
-  const plan::Resection one = plan::resect(joint, request);
-  expect_reached(joint, one, request.range);
+  plan::ResectionOptions request = reaching_with_every_contact({target("flexion", 135)});
+  const plan::Resection one = resected(joint, request);
   EXPECT_NEAR(one.mobile->least_volume_mm3, 6.443, 0.01 * 6.443);
   EXPECT_LT(one.volume_mm3(), 1.02 * 6.443);
 
   request.targets.push_back(target("internal_rotation_at_90_flexion", 45));
   request.targets.push_back(target("extension", 66));
-  const plan::Resection three = plan::resect(joint, request);
-  expect_reached(joint, three, request.range);
+  const plan::Resection three = resected(joint, request);
   EXPECT_NEAR(three.mobile->least_volume_mm3, 19.627, 0.01 * 19.627);
   EXPECT_LT(three.volume_mm3(), 1.02 * 19.627);
 }
@@ -203,11 +210,8 @@ TEST(Resection, ABallThatTouchesNoVertexLeavesItsGroove) {
     const Vec3 centre = distance * Vec3(std::cos(before_face * degree), std::sin(before_face * degree), 0);
     const Joint joint =
         hip_of(ball_at(centre, radius), block({distance - 9.3, -20, -9.7}, {distance + 9.1, 0, 9.9}));
-    plan::ResectionOptions request = reaching({target("flexion", reach)});
-    request.range.bearing.rule = motion::BearingRule::count;
-    const plan::Resection done = plan::resect(joint, request);
-    expect_reached(joint, done, request.range);
-    expect_sound(*done.mobile);
+    plan::ResectionOptions request = reaching_with_every_contact({target("flexion", reach)});
+    const plan::Resection done = resected(joint, request);
     EXPECT_NEAR(done.targets[0].before.end.turned.degrees(), limit, 0.001);
     EXPECT_NEAR(done.mobile->deepest_mm, depth, 0.01);
     EXPECT_NEAR(done.mobile->least_volume_mm3 / volume, 1, 0.01);
@@ -254,8 +258,7 @@ struct GrooveAndBurr {
   explicit GrooveAndBurr(double burr_mm)
       : joint(hip_of(ball_at(40 * Vec3(std::cos(20 * degree), std::sin(20 * degree), 0), 3),
                      block({31.3, -20, -9.7}, {49.1, 0, 9.9}))),
-        request(reaching({target("flexion", 18)})) {
-    request.range.bearing.rule = motion::BearingRule::count;
+        request(reaching_with_every_contact({target("flexion", 18)})) {
     request.burr_mm = burr_mm;
   }
 };
@@ -265,9 +268,7 @@ TEST(Resection, ABurrThatIsWiderThanAGrooveMakesItsOwnCap) {
   const double depth = 1.604020;
   for (const double radius : {4.0, 5.5}) {
     const GrooveAndBurr groove(2 * radius);
-    const plan::Resection done = plan::resect(groove.joint, groove.request);
-    expect_reached(groove.joint, done, groove.request.range);
-    expect_sound(*done.mobile);
+    const plan::Resection done = resected(groove.joint, groove.request);
     const double cap = std::numbers::pi * depth * depth * (3 * radius - depth) / 3;
     EXPECT_NEAR(done.mobile->volume_mm3 / cap, 1, 0.02);
     EXPECT_NEAR(done.mobile->burr_volume_mm3 / (cap - 19.92709), 1, 0.04);
@@ -283,8 +284,7 @@ TEST(Resection, ABurrThatIsWiderThanAGrooveMakesItsOwnCap) {
 
 TEST(Resection, ABurrThatIsNarrowerThanAGrooveTakesNoMore) {
   const GrooveAndBurr groove(5);
-  const plan::Resection done = plan::resect(groove.joint, groove.request);
-  expect_reached(groove.joint, done, groove.request.range);
+  const plan::Resection done = resected(groove.joint, groove.request);
   EXPECT_LT(done.mobile->burr_volume_mm3, 0.01 * done.mobile->volume_mm3);
   EXPECT_NEAR(done.mobile->volume_mm3 / 19.92709, 1, 0.02);
 }
@@ -406,11 +406,9 @@ TEST(Resection, RimOrBothBonesReachTheSameTarget) {
   for (const double share : {1.0, 0.5}) {
     plan::ResectionOptions request = reaching({target("flexion", 60)});
     request.fixed_share = share;
-    const plan::Resection done = plan::resect(joint, request);
+    const plan::Resection done = resected(joint, request);
     ASSERT_TRUE(done.fixed);
     EXPECT_EQ(done.mobile.has_value(), share < 1);
-    expect_reached(joint, done);
-    expect_sound(*done.fixed);
     EXPECT_NEAR(done.fixed->volume_mm3, lost_mm3(*done.fixed), 1e-6);
   }
 }
@@ -426,9 +424,7 @@ TEST(Resection, SampleCamsReachTheirTargets) {
   for (const double alpha : {60.0, 70.0, 80.0}) {
     const Joint joint = sample_joint(alpha);
     const plan::Resection done =
-        plan::resect(joint, reaching({target("internal_rotation_at_90_flexion", 50), target("fadir", 36)}));
-    expect_reached(joint, done);
-    expect_sound(*done.mobile);
+        resected(joint, reaching({target("internal_rotation_at_90_flexion", 50), target("fadir", 36)}));
     EXPECT_LT(done.mobile->volume_mm3, 1.01 * done.mobile->least_volume_mm3 + 0.1);
     for (std::size_t v = 0; v < done.mobile->depth_mm.size(); ++v)
       if (done.mobile->depth_mm[v] > 0) {
@@ -712,9 +708,7 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
   // Least volumes by voxels of 0.2 mm.
   for (const auto& [gain, least, deepest] : {GainCase{5, 34.8, 1.3}, {10, 150.1, 2.8}, {15, 352.6, 4.5}}) {
     const plan::Resection done =
-        plan::resect(*hip, reaching({target("internal_rotation_at_90_flexion", 32.686 + gain)}));
-    expect_reached(*hip, done);
-    expect_sound(*done.mobile);
+        resected(*hip, reaching({target("internal_rotation_at_90_flexion", 32.686 + gain)}));
     EXPECT_LE(done.volume_mm3(), 1.01 * least);
     EXPECT_GE(done.volume_mm3(), 0.97 * least);
     EXPECT_LE(done.mobile->deepest_mm, deepest);
@@ -736,21 +730,15 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
   for (const auto& [share, of_rim] : {std::pair(1.0, 149.6), {0.5, 73.1}}) {
     plan::ResectionOptions request = reaching({target("internal_rotation_at_90_flexion", 42.686)});
     request.fixed_share = share;
-    const plan::Resection rim = plan::resect(*hip, request);
-    expect_reached(*hip, rim);
-    expect_sound(*rim.fixed);
+    const plan::Resection rim = resected(*hip, request);
     EXPECT_NEAR(rim.fixed->volume_mm3 / of_rim, 1, 0.01);
   }
   plan::ResectionOptions burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
   burr.burr_mm = 5.5;
-  const plan::Resection made = plan::resect(*hip, burr);
-  expect_reached(*hip, made);
-  expect_sound(*made.mobile);
+  const plan::Resection made = resected(*hip, burr);
   EXPECT_LT(made.volume_mm3(), 1.15 * 150.1);
   EXPECT_LT(not_touched_mm(*made.mobile, 2.75, 0.2), 0.15 + made.mobile->burr_in_kept_mm);
-  const plan::Resection flexion = plan::resect(*hip, reaching({target("flexion", 140)}));
-  expect_reached(*hip, flexion);
-  expect_sound(*flexion.mobile);
+  const plan::Resection flexion = resected(*hip, reaching({target("flexion", 140)}));
 }
 
 // A globe on a cone: what flexion sweeps of the cone folds, whichever way it goes. The other directions, each as long, are not tried.
