@@ -256,6 +256,13 @@ Evidence of_hip_bone(const Vec3& mass, const Vec3& opening, double rightwards) {
 /// A femur that is turned by 180 degrees about superior lies as one of the other side with its neck turned back. Both sides' sockets of a pelvis
 /// may be there for it: about y = 0, LPS and RAS differ by nothing else.
 void check_version(const Joint& joint, const Vec3& neck, const Vec3& opening, Notes& notes) {
+  // Other surfaces beside the bones, and a head out of its socket, move the direction of neck or opening.
+  constexpr JointNoteCode moving[] = {JointNoteCode::self_crossings, JointNoteCode::nested_surfaces,
+                                      JointNoteCode::head_socket_apart};
+  const auto moves = [&](const JointNote& note) {
+    return std::find(std::begin(moving), std::end(moving), note.code) != std::end(moving);
+  };
+  if (std::any_of(notes.so_far().begin(), notes.so_far().end(), moves)) return;
   const double rightwards = joint.side == Side::right ? 1 : -1;
   const auto forwards_deg = [&](const Vec3& v) {
     return core::arctangent(v.x(), rightwards * v.z()) * 180 / std::numbers::pi;

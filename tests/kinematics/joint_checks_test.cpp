@@ -156,7 +156,7 @@ const std::vector<Case> wrong_set_ups{
      [](HipSetUp& s) { s.mobile = mirrored(s.mobile, 0); },
      {Code::unlikely_version}},
     {"FemurInLpsAtAHipBoneInRasOfTheOtherHip",
-     coarse_libhip,
+     libhip,
      [](HipSetUp& s) { s.mobile = mirrored(s.mobile, 0); },
      {Code::unlikely_version}},
     {"ReversedFemur",
