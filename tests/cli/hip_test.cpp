@@ -133,7 +133,7 @@ TEST_F(Patients, HaveOneMeshOfBothHipBones) {
 TEST_F(Patients, AreAnsweredAsFarAsTheyCanBe) {
   const Ran ran = run("hip whole.nii.gz --task total --samples 0 --plan internal_rotation=+5 --out partly");
   EXPECT_EQ(ran.exit_code, 4);
-  EXPECT_TRUE(says(ran.err, "left: resection: nothing ends internal_rotation"));
+  EXPECT_TRUE(says(ran.err, "left/hip.toml: resection: nothing ends internal_rotation"));
   EXPECT_TRUE(says(ran.out, "left - right"));
   EXPECT_TRUE(is_there("partly/right/hip.html") && is_there("partly/both.csv"));
 }

@@ -87,11 +87,12 @@ export class RecordedPanel {
     const of = (name: string) => this.curves.find((curve) => curve.name === name), pressure = of("max_pressure_mpa");
     if (pressure?.kind !== "changes") return null;
     const frame = extremeOf(pressure), at = (name: string) => of(name)?.values[frame] ?? Number.NaN;
+    const force = this.curves.filter(({ name }) => /^force_in_(fixed|mobile)_[xyz]_n$/.test(name)).map(({ values }) => values[frame]!);
     const shares = this.curves.filter(({ name }) => name.endsWith("_share_percent")),
       regions = shares.map(({ title }) => title.replace(/ share$/, ""));
     const figures = [
       [words.peakPressure, valueText(pressure.values[frame]!, pressure.unit)], [words.areaThen, valueText(at("area_mm2"), "mm²")],
-      [words.forceThen, valueText(Math.hypot(at("force_x_n"), at("force_y_n"), at("force_z_n")), "N")],
+      [words.forceThen, valueText(Math.hypot(...force), "N")],
       ...(shares.length > 1 ? [[regions.join(" : "), shares.map(({ values }) => fixed(values[frame]!, 0)).join(" : ")]] : []),
     ].map(([name, value]) => this.figureAt(frame, name!, value!));
     return { frame, figures, sentence: words.loadSentence(figures, figures[0]!.at) };

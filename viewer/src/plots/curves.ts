@@ -30,13 +30,13 @@ export function curveOf({ name, unit }: { name: string; unit: string }, values: 
 }
 
 /// The curves shown first, if they vary: a motion without contact still has a gap to draw.
-const first = ["max_pressure_mpa", "area_mm2", "max_depth_mm", "smallest_gap_mm", "mean_pressure_mpa", "force_y_n"];
+const first = ["max_pressure_mpa", "area_mm2", "max_depth_mm", "smallest_gap_mm", "mean_pressure_mpa", "force_in_mobile_y_n", "force_in_fixed_y_n"];
 export const shownAtOnce = 4;
 
 export function usualCurves(curves: readonly Curve[]): Curve[] {
   const changing = curves.filter(({ kind }) => kind === "changes");
   const wanted = first.flatMap((name) => changing.find((curve) => curve.name === name) ?? []);
-  const says = (curve: Curve) => !wanted.includes(curve) && !/^(in_contact|intersecting_pairs|balanced)$/.test(curve.name);
+  const says = (curve: Curve) => !wanted.includes(curve) && !/^(in_contact|intersecting_pairs|balanced|state)$/.test(curve.name);
   return [...wanted, ...changing.filter(says)].slice(0, shownAtOnce);
 }
 
