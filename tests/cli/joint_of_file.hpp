@@ -19,14 +19,14 @@ inline std::string text_of_joint(const JointOfFile& joint) {
   const auto body = [](const std::string& body) {
     return body.find('=') == body.npos ? mesh_key(body) : body;
   };
-  const std::string keys = joint.joint.empty() ? "" : "joint = \"" + joint.joint + "\"\n",
+  // The joint's key stands below its kind, where tests replace both.
+  const std::string kind = joint.joint.empty() ? joint.kind : joint.kind + "\"\njoint = \"" + joint.joint,
                     axes = "anterior = " + joint.anterior + "\nsuperior = [0, 1, 0]\n",
                     fixed = body(joint.fixed), mobile = body(joint.mobile);
   return joint_text({.name = joint.name,
-                     .kind = joint.kind,
+                     .kind = kind,
                      .side = joint.side,
                      .units = joint.units,
-                     .keys = keys,
                      .fixed = fixed,
                      .mobile = mobile,
                      .centre = joint.centre,
