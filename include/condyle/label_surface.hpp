@@ -79,12 +79,13 @@ struct LabelSimplification {
 /// The surface of a bone's mask, in mm in the world of its image.
 struct LabelSurface {
   /// Closed, every edge in two triangles, every vertex in one fan, wound outwards, without self-crossings and degenerate
-  /// triangles. Without `all_pieces` and `keep_cavities` one connected component.
+  /// triangles. Without `all_pieces` and `keep_cavities` one connected component, or those into which
+  /// smoothing parts one piece, without specks.
   TriMesh mesh;
   std::vector<CapPlane> caps;      ///< By axis, low before high: those sides of the image that cut the bone.
   std::vector<LabelPiece> pieces;  ///< Most voxels first.
   LabelCavities cavities;          ///< of the kept pieces; filled unless `keep_cavities`
-  /// Components of the contour that were left out: what smoothing separated from the bone, hollows that it closed.
+  /// Components of the contour that were left out: specks that smoothing separated from the bone, hollows that it closed.
   std::size_t dropped_components = 0;
   /// Lengths in mm of one step along each index axis.
   Vec3 spacing = Vec3::Zero();

@@ -99,9 +99,9 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   for (std::size_t i = 0; i < answer.promises.size(); ++i)
     targets.append(
         tuple_of_target(handle, answer.resection, answer.resection.targets[i], answer.promises[i]));
-  for (const ResectionAnswer::ResectionAlternative& each : answer.alternatives)
+  for (const ResectionAnswer::Alternative& each : answer.alternatives)
     alternatives.append(py::make_tuple(each.confidence, each.margin_mm, each.volume_mm3));
-  for (const ResectionAnswer::ResectionCurvePoint& point : answer.curve)
+  for (const ResectionAnswer::CurvePoint& point : answer.curve)
     curve.append(py::make_tuple(point.target, point.reached.degrees(), point.volume_mm3, point.deepest_mm));
   py::dict dict;
   dict["joint"] = handle_of(handle, answer.resection.joint);

@@ -458,7 +458,7 @@ std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
         formatted("%s in %.0f %% of %zu displaced %s", said.starts_with("ends") ? ", which it reaches" : "",
                   100 * *reached, answer.displaced, answer.resection.joint.is_hip() ? "hips" : "joints") +
         formatted(", %.4g mm3", answer.resection.volume_mm3());
-  for (const ResectionAnswer::ResectionAlternative& each : answer.alternatives)
+  for (const ResectionAnswer::Alternative& each : answer.alternatives)
     if (each.confidence != answer.confidence && !outcome.blocked)
       said += formatted("; in %.4g %%: %.4g mm3", 100 * each.confidence, each.volume_mm3);
   if (!other) return said;

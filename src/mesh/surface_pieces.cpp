@@ -295,13 +295,14 @@ std::vector<bool> kept_pieces(const SurfacePieces& pieces, const PieceChoice& ch
     return amount(pieces.all[a], by_volume) > amount(pieces.all[b], by_volume);
   });
   std::vector<bool> kept(pieces.all.size());
-  bool is_first_solid = true;
+  std::optional<double> most;  // of the first solid
   for (const std::size_t i : largest_first) {
     const SurfacePiece& piece = pieces.all[i];
     const bool is_solid = !piece.is_closed || piece.signed_volume > 0;
     if (!piece.is_inner()) {
-      kept[i] = is_solid && (choice.all_solids || is_first_solid);
-      is_first_solid = is_first_solid && !is_solid;
+      const double here = amount(piece, by_volume);
+      kept[i] = is_solid && (choice.all_solids || !most || here > choice.least_part * *most);
+      if (is_solid && !most) most = here;
     } else {
       kept[i] = kept[piece.around] && (is_solid ? choice.all_solids : choice.keep_cavities);
     }

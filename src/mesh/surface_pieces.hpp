@@ -47,6 +47,7 @@ struct SurfacePieces {
 /// Which pieces of a body stay.
 struct PieceChoice {
   bool all_solids = false, keep_cavities = true;
+  double least_part = 1;  ///< solids with more than this part of the largest stay as it does
 };
 
 /// By piece: of the solids that lie in no other the one of most volume stays (of most area if the surface is open), or all; of what lies

@@ -96,7 +96,7 @@ long failures_of(condyle_status (*call)(Arguments...), auto... arguments) {
   return failures_until_success([&] { return call(arguments...); });
 }
 
-/// Of a _create function, whose object is kept.
+/// Calls a _create function, and keeps the object that it makes.
 template <class Object, class... Arguments>
 long failures_until_made(Object& object, condyle_status (*create)(Arguments...), auto... arguments) {
   return failures_until_success([&] {

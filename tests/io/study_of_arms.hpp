@@ -54,7 +54,7 @@ class StudyOfArms : public ::testing::Test {
     for (const char* name : {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"})
       EXPECT_EQ(io::read_whole_file(folder / a / name), io::read_whole_file(folder / b / name)) << name;
   }
-  /// Of a joint that is a hinge, and no hip.
+  /// A study of one joint, which is a hinge and no hip.
   io::Study knees() const {
     folder.file("knee.toml", replaced(io::read_whole_file(folder / "hip1.toml"), "kind = \"ball\"",
                                       "kind = \"hinge\"\njoint = \"knee\""));

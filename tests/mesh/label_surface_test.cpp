@@ -296,6 +296,7 @@ TEST(LabelSurface, KeepsTheLargestPieceUnlessAllAreAskedFor) {
   EXPECT_GT(inspect(largest.mesh).bounds.low.x(), 18);
 }
 
+/// Smoothing parts them, and neither half is lost.
 TEST(LabelSurface, VoxelsThatMeetInACornerAreOnePiece) {
   const VoxelMask diagonal = mask_where({14, 14, 14}, [](const Vec3& p) {
     return ((p.array() >= 2) && (p.array() < 7)).all() || ((p.array() >= 7) && (p.array() < 12)).all();
@@ -303,7 +304,9 @@ TEST(LabelSurface, VoxelsThatMeetInACornerAreOnePiece) {
   const LabelSurface surface = surface_of(diagonal);
   EXPECT_EQ(surface.pieces.size(), 1u);
   expect_sound(surface.mesh);
-  EXPECT_EQ(inspect(surface.mesh).components.size(), 1u);
+  const auto halves = inspect(surface.mesh).components;
+  ASSERT_EQ(halves.size(), 2u);
+  EXPECT_NEAR(*halves[0].signed_volume, *halves[1].signed_volume, 1e-6) << "one is the other's mirror image";
 }
 
 TEST(LabelSurface, SimplifiedKeepsItsShape) {

@@ -36,6 +36,8 @@ def test_written_again_with_the_other_stop_the_old_force_is_gone(joint, tmp_path
     text = second.read_text()
     assert "condyle_limit_" not in re.sub("<!--.*?-->", "", text, flags=re.S) and text.count('name="condyle_stop_') == 3
     run_command("inspect", second)
+    again = written(joint, tmp_path / "c.osim", "--model", second, "--stop", "linear")
+    assert again.returncode == 0 and "stop of the model's own" not in again.stdout, "the forces are ours"
 
 
 def changed_model(tmp_path, pattern, by):

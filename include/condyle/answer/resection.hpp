@@ -62,13 +62,13 @@ inline constexpr double neck_width_share = 0.3;
 
 struct ResectionAnswer {
   /// The cost of a target if it were the only one, at nearer angles.
-  struct ResectionCurvePoint {
+  struct CurvePoint {
     std::size_t target;
     Angle reached;
     double volume_mm3, deepest_mm;
   };
   /// What a plan for a share of displaced joints costs.
-  struct ResectionAlternative {
+  struct Alternative {
     double confidence, margin_mm, volume_mm3;
   };
   /// What a cut promises of a target.
@@ -91,18 +91,17 @@ struct ResectionAnswer {
   plan::Resection resection;
   double margin_mm =
       0;  ///< as planned: larger than requested where a share of displaced joints is to reach the targets
-  std::optional<double> confidence = {};     ///< as requested; empty where the margin was to stay
-  std::size_t displaced = 0;                 ///< joints by which it is judged
-  std::vector<TargetPromise> promises = {};  ///< one per target
-  std::vector<ResectionAlternative> alternatives =
-      {};  ///< the plan for the requested share, and the one for 80 %
+  std::optional<double> confidence = {};       ///< as requested; empty where the margin was to stay
+  std::size_t displaced = 0;                   ///< joints by which it is judged
+  std::vector<TargetPromise> promises = {};    ///< one per target
+  std::vector<Alternative> alternatives = {};  ///< the plan for the requested share, and the one for 80 %
   std::vector<motion::MotionLimit> before = {}, after = {};  ///< one per motion
   /// One per motion: what the cut adds, without what smaller triangles alone add; of a target what it adds in the requested share of displaced
   /// joints, or half.
   std::vector<Angle> gain = {};
   std::optional<measure::HipMeasures> shape_before = {}, shape_after = {};  ///< of a hip
   std::vector<motion::LimitBand> bands_before = {}, bands_after = {};       ///< one per motion if requested
-  std::vector<ResectionCurvePoint> curve = {};                              ///< by target, ascending
+  std::vector<CurvePoint> curve = {};                                       ///< by target, ascending
   std::vector<ResectionNote> notes = {};
   std::vector<RangeNote> limit_notes =
       {};  ///< what the limits after the cut must be read with, as those of answer_range()

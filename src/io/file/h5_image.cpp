@@ -76,8 +76,8 @@ H5Silence::~H5Silence() {
 }
 
 H5Image::H5Image() : file_(created_in_memory(), H5Fclose) {
-  attribute("/", "condyle_version",
-            std::string(version));  // first: who may replace the file looks near its beginning
+  // The first thing in the file: who may replace it looks near the beginning.
+  attribute("/", "condyle_version", std::string(version));
 }
 
 void H5Image::group(const std::string& path) {

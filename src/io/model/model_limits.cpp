@@ -19,6 +19,9 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 
+/// Names of forces are these and the coordinate's.
+constexpr std::string_view limit_name = "condyle_limit_", linear_name = "condyle_stop_";
+
 struct Force {
   std::string_view element;
   std::string name;
@@ -31,14 +34,14 @@ Force force_of(const CoordinateRange& range, StopForce stop) {
   const std::string coordinate = xml_escaped(range.coordinate);
   if (stop == StopForce::linear)
     return {"CoordinateLinearStopForce",
-            "condyle_stop_" + range.coordinate,
+            std::string(linear_name) + range.coordinate,
             {{"coordinate", coordinate},
              {"stiffness", fmt::format("{}", 1 / radians)},
              {"damping", "0"},
              {"upper_limit", fmt::format("{}", range.upper_deg * radians)},
              {"lower_limit", fmt::format("{}", range.lower_deg * radians)}}};
   return {"CoordinateLimitForce",
-          "condyle_limit_" + range.coordinate,
+          std::string(limit_name) + range.coordinate,
           {{"coordinate", coordinate},
            {"upper_stiffness", "1"},
            {"upper_limit", fmt::format("{}", range.upper_deg)},
@@ -143,6 +146,11 @@ void find_coordinates(const XmlElement& in, const std::string& joint, const std:
 }
 
 }  // namespace
+
+bool is_own_force(std::string_view name, std::string_view coordinate) {
+  return name == std::string(limit_name).append(coordinate) ||
+         name == std::string(linear_name).append(coordinate);
+}
 
 std::string range_text(const CoordinateRange& range) {
   return fmt::format("{} {}", range.lower_deg * radians, range.upper_deg * radians);

@@ -24,6 +24,9 @@ struct CoordinateRange {
 /// Its ends in the file's unit, as an element `range` has them.
 std::string range_text(const CoordinateRange& range);
 
+/// Whether a force on a coordinate has the name of one that is written here.
+bool is_own_force(std::string_view name, std::string_view coordinate);
+
 /// The element of a force, of OpenSim's own stiffness, damping and transition; the linear one is as stiff.
 std::string force_element(const CoordinateRange& range, StopForce stop);
 

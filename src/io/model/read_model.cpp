@@ -14,6 +14,7 @@
 #include "io/file/words.hpp"
 #include "io/model/find_mesh.hpp"
 #include "io/model/model_frames.hpp"
+#include "io/model/model_limits.hpp"
 #include "io/model/read_joint.hpp"
 #include "io/model/read_ligament.hpp"
 #include "io/model/spatial_transform.hpp"
@@ -348,7 +349,7 @@ class ModelReader {
           const double lower = unit * stop.ends[0], upper = unit * stop.ends[1];
           const auto before = coordinate.stop.value_or(std::array{lower, upper});
           coordinate.stop = {std::max(before[0], lower), std::min(before[1], upper)};
-          if (!stop.name.starts_with("condyle_limit_"))
+          if (!is_own_force(stop.name, coordinate.name))
             coordinate.stop_by_others +=
                 (coordinate.stop_by_others.empty() ? "" : ", ") + in_quotes(stop.name);
         }

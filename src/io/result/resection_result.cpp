@@ -139,7 +139,7 @@ std::string shape_lines(const ResectionAnswer& answer) {
 std::string curve_lines(const ResectionAnswer& answer) {
   if (answer.curve.empty()) return {};
   std::string text = "  what each degree costs, each target by itself:\n";
-  for (const ResectionAnswer::ResectionCurvePoint& point : answer.curve)
+  for (const ResectionAnswer::CurvePoint& point : answer.curve)
     text += fmt::format("    {} to {:.1f} deg: {:.1f} mm3, {:.2f} mm deep\n",
                         answer.resection.targets[point.target].target.motion.name, point.reached.degrees(),
                         point.volume_mm3, point.deepest_mm);
@@ -225,7 +225,7 @@ Json shape_json(const ResectionAnswer& answer) {
 
 Json curve_json(const ResectionAnswer& answer) {
   Json list = Json::array();
-  for (const ResectionAnswer::ResectionCurvePoint& point : answer.curve)
+  for (const ResectionAnswer::CurvePoint& point : answer.curve)
     list.push_back({{"motion", answer.resection.targets[point.target].target.motion.name},
                     {"reached_deg", point.reached.degrees()},
                     {"volume_mm3", point.volume_mm3},
@@ -272,7 +272,7 @@ Json resection_object(const ResectionResult& result) {
                       {"band", band_json(answer.bands_after, i, answer.before[i].motion)},
                       {"gain_deg", answer.gain[i].degrees()}});
   Json alternatives = Json::array();
-  for (const ResectionAnswer::ResectionAlternative& each : answer.alternatives)
+  for (const ResectionAnswer::Alternative& each : answer.alternatives)
     alternatives.push_back(
         {{"confidence", each.confidence}, {"margin_mm", each.margin_mm}, {"volume_mm3", each.volume_mm3}});
   Json hours = nullptr;
@@ -333,7 +333,7 @@ std::string resection_limits_csv(const ResectionResult& result) {
 std::string resection_curve_csv(const ResectionResult& result) {
   std::string text =
       io::provenance_comments(result.provenance) + "motion,reached_deg,volume_mm3,deepest_mm\n";
-  for (const ResectionAnswer::ResectionCurvePoint& point : result.answer.curve)
+  for (const ResectionAnswer::CurvePoint& point : result.answer.curve)
     text += fmt::format("{},{},{},{}\n",
                         io::csv_field(result.answer.resection.targets[point.target].target.motion.name),
                         point.reached.degrees(), point.volume_mm3, point.deepest_mm);

@@ -129,7 +129,9 @@ std::optional<LabelSurface> surface_of(const VoxelMask& mask, const LabelSurface
   }();
   if (!contour || !steps.next()) return std::nullopt;
 
-  surface.dropped_components = mesh::drop_components(*contour, {options.all_pieces, options.keep_cavities});
+  // Where parts of a bone touch over a few voxels smoothing parts them: all but specks are the bone.
+  surface.dropped_components = mesh::drop_components(
+      *contour, {options.all_pieces, options.keep_cavities, 1.0 / static_cast<double>(mesh::speck_share)});
   if (contour->mesh.triangles.empty())
     throw MeshError("smoothing leaves none of the label's " + std::to_string(surface.pieces.front().voxels) +
                     (surface.pieces.front().voxels == 1 ? " voxel" : " voxels"));

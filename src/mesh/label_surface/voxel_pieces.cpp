@@ -96,9 +96,6 @@ std::span<std::uint8_t> voxels_of(VoxelBox& box, const Run& run, std::int64_t j,
       .subspan(static_cast<std::size_t>(row + run.begin), static_cast<std::size_t>(run.end - run.begin));
 }
 
-/// A piece with less than this part of the voxels of the largest is a speck, which belongs to no bone.
-constexpr std::int64_t speck_share = 100;
-
 /// How far apart faces are that belong together: growth plates are 2 to 4.5 mm wide; and the bone in which they are, mm.
 constexpr double widest_gap = 5, usual_bone = 150;
 /// Faces that belong together are a part of the smaller piece's border: of a hip bone's three parts 5 % and more.

@@ -38,6 +38,9 @@ struct KeptBone {
   std::vector<LeftOutPiece> left_out = {};
 };
 
+/// A piece with less than this part of the largest is a speck, which belongs to no bone.
+inline constexpr std::int64_t speck_share = 100;
+
 /// Keeps one bone: pieces that face each other across a gap of some millimetres over a section, as a growth plate or a fracture leaves them,
 /// are one. Of several bones it is the large one whose centroid is nearest to a point, or without one that of most voxels. Halves of a pelvis face
 /// each other too, at the symphysis: bones as large as each other and side by side along x are two. `X_WB` takes the box's indices to

@@ -165,12 +165,12 @@ std::string fault_of(Kind kind, const Hip& hip, const io::LabelMap& map) {
       return Body{of.name, Mesh(of.surface.mesh), {}, of.image};
     };
     const PlacedJoint joint = placed(hip.side, body(found.fixed), body(found.mobile));
-    // The pieces together are the bone: the note of their gap, in which a motion may go on, allows twice as much and no more.
+    // The pieces together are the bone: notes of a gap, in which a motion may go on, allow twice as much and no more.
     double allowed_deg = 5;
     for (const JointNote& note : check_joint(joint.joint, joint.placement))
-      if (note.code == JointNoteCode::gap_in_bone)
+      if (note.code == JointNoteCode::gap_in_bone || note.code == JointNoteCode::separate_pieces)
         allowed_deg = 10;
-      else if (note.code != JointNoteCode::separate_pieces)
+      else
         text += std::string(name_of(note.code)) + ": " + note.text + "; ";
     if (kind != Kind::good && !text.empty()) return "";
     const std::vector<double> limits = limits_of(joint.joint);
