@@ -26,7 +26,7 @@ struct Budget {
   /// rounds, at least one.
   double seconds = 0.15;
   int rounds = 5;
-  int frames = 6;  ///< Of the deforming variant.
+  int frames = 6;  ///< Of the deforming variant, gone through twice.
   /// A method that was made ready for longer than this at a scene is not asked at larger ones of the family.
   double build_seconds = 20;
   /// One without an update that is made ready for longer than this is not made anew for the deforming
@@ -63,8 +63,10 @@ struct Outcome {
   /// Only for `touch`: their time over Condyle's at the poses without and with a contact; 0 where there is
   /// none.
   double free_ratio = 0, touching_ratio = 0;
-  double build_seconds = 0;               ///< Made ready once.
-  std::optional<double> update_seconds;   ///< After a deformation; of `is_deformed` only.
+  double build_seconds = 0;  ///< Made ready once.
+  /// Following and one answer after the first deformation, and following later ones of a motion that was followed before; of
+  /// `is_deformed` only.
+  std::optional<double> first_step_seconds, update_seconds;
   std::optional<double> thread_speed_up;  ///< Poses a second with all threads over one; where it can.
   std::size_t bytes = 0;
   std::optional<InsideAccuracy> inside;

@@ -130,7 +130,7 @@ class Trees final : public Method {
 class Radial final : public Method {
  public:
   Radial(const Bodies& bodies, condyle::radial::RadialOptions options)
-      : options_(options), mobile_(&bodies.mobile), table_(std::make_shared<Table>(bodies.fixed, options)) {}
+      : mobile_(&bodies.mobile), table_(std::make_shared<Table>(bodies.fixed, options)) {}
 
   void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
     posed(X_FM, mobile_->vertices.view(), posed_);
@@ -141,18 +141,15 @@ class Radial final : public Method {
         out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.radial_gap_mm[v]});
   }
 
-  void deform(condyle::PointsView fixed_vertices) override {
-    table_ = std::make_shared<Table>(with_vertices(fixed_vertices, table_->mesh()), options_);
-  }
+  void deform(condyle::PointsView fixed_vertices) override { table_->update(fixed_vertices); }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<Radial>(*this); }
   std::size_t bytes() const override { return table_->table_size().bytes; }
 
  private:
   using Table = condyle::radial::RadialTable;
-  condyle::radial::RadialOptions options_;
   const TriMesh* mobile_;
-  std::shared_ptr<const Table> table_;
+  std::shared_ptr<Table> table_;
   condyle::Points posed_;
   condyle::radial::RadialResults hits_;
 };
@@ -235,7 +232,7 @@ MethodKind radial(std::string name, std::string title, condyle::radial::Directio
   return {std::move(name),
           "Condyle",
           std::move(title),
-          {.inside = true},
+          {.inside = true, .deforms = true},
           DepthKind::along_ray,
           true,
           [map](const Bodies& bodies) {

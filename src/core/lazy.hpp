@@ -36,6 +36,7 @@ class Lazy {
     return value_;
   }
 
+  [[nodiscard]] bool is_current() const noexcept { return is_current_.load(std::memory_order_acquire); }
   /// To be kept current by hand while nothing else reads it; null if it is out of date.
   T* current() noexcept { return is_current_.load(std::memory_order_relaxed) ? &value_ : nullptr; }
   /// Its memory is kept for when it is made again.

@@ -56,16 +56,16 @@ void refuse_centre_on(std::size_t triangle) {
   throw MeshError("the joint centre lies on the surface, in triangle " + std::to_string(triangle));
 }
 
-/// Before a table is made: triangles round a centre that is a vertex have directions without end.
-void require_no_corner_at_centre(const TriMesh& mesh) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      if (mesh.corner(t, k) == Vec3::Zero()) refuse_centre_on(t);
-}
-
 }  // namespace
 
 // ---- Build
+
+/// Before a table is made: triangles round a centre that is a vertex have directions without end.
+void DirectionTable::require_no_corner_at_centre() const {
+  for (std::size_t t = 0; t < mesh().triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (mesh().corner(t, k) == Vec3::Zero()) refuse_centre_on(t);
+}
 
 DirectionTable::DirectionTable(Mesh mesh, const RadialOptions& options)
     : given_(std::move(mesh)), map_(make_map(options, given_.arrays())) {
@@ -77,20 +77,25 @@ DirectionTable::DirectionTable(const DirectionTable& other)
       deformed_(other.deformed_ ? std::make_unique<TriMesh>(*other.deformed_) : nullptr),
       map_(other.map_),
       table_(other.table_),
+      cartesian_(other.cartesian_),
+      forms_measured_(other.forms_measured_),
       winding_at_centre_(other.winding_at_centre_),
       triangles_at_(other.triangles_at_),
-      rejection_(other.rejection_) {}
+      rejection_(other.rejection_),
+      earlier_(other.earlier_) {}
 
 void DirectionTable::build_parts() {
-  require_no_corner_at_centre(mesh());
+  require_no_corner_at_centre();
   if (cube()) {
     build(mesh(), *cube(), table_);
   } else {
-    table_.entries = bin_triangles(mesh(), std::get<CartesianMap>(map_));
+    build(mesh(), std::get<CartesianMap>(map_), cartesian_);
   }
+  forms_measured_.get([](std::monostate&) {});
   require_centre_off_surface();
   find_winding_at_centre();
   rejection_.make_out_of_date();
+  earlier_ = {};
 }
 
 /// Far out the winding number is zero; every boundary crossed on the way in adds its sense.
@@ -99,7 +104,7 @@ void DirectionTable::find_winding_at_centre() {
   const Vec3 any_direction(0, 0, 1);
   const Index cell = std::visit([&](const auto& map) { return map.cell_of(any_direction); }, map_);
   int winding = 0;
-  for (const Index t : table_.entries.of(cell)) {
+  for (const Index t : entries().of(cell)) {
     const Cone cone = cone_of(mesh(), t);
     winding += static_cast<int>(ray_crossing(any_direction, cone.a, cone.b, cone.c).outwards);
   }
@@ -140,12 +145,12 @@ void DirectionTable::require_closed() const {
 
 void DirectionTable::query(PointsView points, RadialResults& out) const {
   require_closed();
-  radial::query(exact_view(), points, out);
+  radial::query(measured_view(), points, out);
 }
 
 std::vector<double> DirectionTable::radial_gaps(PointsView points) const {
   require_closed();
-  return radial::radial_gaps(exact_view(), points);
+  return radial::radial_gaps(measured_view(), points);
 }
 
 void DirectionTable::penetrations(const PointBlocks& points, const Pose& X_FM, Penetrations& out,
@@ -153,6 +158,7 @@ void DirectionTable::penetrations(const PointBlocks& points, const Pose& X_FM, P
   require_closed();
   auto scratch = scratch_.take();
   radial::penetrations(exact_view(), cube_view(), points, X_FM, *scratch, out, work);
+  measured_on_demand_.fetch_add(scratch->crossing.forms.take_count(), std::memory_order_relaxed);
   scratch_.put_back(std::move(scratch));
 }
 
@@ -168,6 +174,7 @@ void DirectionTable::penetrations(const PointBlocks& points, std::span<const Pos
     auto scratch = scratch_.take();
     for (std::size_t i = first; i < last; ++i)
       radial::penetrations(exact, cube, points, X_FM[i], *scratch, out[i], nullptr);
+    measured_on_demand_.fetch_add(scratch->crossing.forms.take_count(), std::memory_order_relaxed);
     scratch_.put_back(std::move(scratch));
   });
 }
@@ -182,23 +189,65 @@ void DirectionTable::add_ray_to_normal(PointsView points, const Pose& X_FM, Pene
 }
 
 void DirectionTable::prepare_penetrations() const {
-  if (cube()) rejection_parts();
+  if (cube() && !reads_earlier_parts()) rejection_parts();
 }
 
-const DirectionTable::RejectionParts& DirectionTable::rejection_parts() const {
+const RejectionParts& DirectionTable::rejection_parts() const {
   return rejection_.get([this](RejectionParts& parts) { find_rejection_parts(parts); });
 }
 
 void DirectionTable::find_rejection_parts(RejectionParts& parts) const {
+  measure_forms();
+  parts.scale = table_.forms.scale;
   // Points nearer to the centre than the surface are inside and to be found where the centre is.
   parts.radii.starts_at_centre = winding_at_centre_.value_or(0) > 0;
   find_radii(*cube(), table_, parts.radii);
   parts.pyramid.fill(cube()->cells_per_side(), parts.radii.of_cell);
 }
 
+void DirectionTable::measure_forms() const {
+  forms_measured_.get([this](std::monostate&) { measure(mesh(), table_.forms); });
+}
+
+ExactView DirectionTable::measured_view() const {
+  ExactView view = exact_view();
+  if (!cube()) return view;
+  measure_forms();
+  view.edge_functions = table_.forms.edge_functions.data();
+  return view;
+}
+
+/// Once as many forms were measured as there are, all and the radii that follow from them are worth it.
+bool DirectionTable::reads_earlier_parts() const noexcept {
+  return earlier_.drift && !rejection_.is_current() &&
+         measured_on_demand_.load(std::memory_order_relaxed) < mesh().triangles.size();
+}
+
+CubeView DirectionTable::drifted_view(const Drift& drift) const {
+  const auto& [radii, pyramid, scale] = earlier_.parts;
+  const float nearest = std::sqrt(radii.least_squared) * (1 - 0x1p-20f) - drift.mm,
+              furthest = std::sqrt(radii.greatest_squared) * (1 + 0x1p-20f) + drift.mm;
+  MeshView corners = view_of(mesh().vertices, mesh().triangles);
+  corners.xyz = table_.forms.corner.data()->data();
+  return {.cells_per_side = cube()->cells_per_side(),
+          .levels = DirectionPyramid::level_count(cube()->cells_per_side()),
+          .radii = radii.of_cell.data(),
+          .pyramid = pyramid.data(),
+          .entries = table_.entries.view(),
+          .nearest = radii.nearest.data(),
+          .edge_functions = nullptr,
+          .mesh = corners,
+          .drift = drift,
+          .scale = scale,
+          .winding_at_centre = winding_at_centre_.value_or(0),
+          .nearest_squared = nearest * nearest,
+          .furthest_squared = furthest * furthest};
+}
+
 std::optional<CubeView> DirectionTable::cube_view() const {
   if (!cube()) return {};
-  const auto& [radii, pyramid] = rejection_parts();
+  if (reads_earlier_parts()) return drifted_view(*earlier_.drift);
+  const auto& [radii, pyramid, scale] = rejection_parts();
   return CubeView{.cells_per_side = cube()->cells_per_side(),
                   .levels = DirectionPyramid::level_count(cube()->cells_per_side()),
                   .radii = radii.of_cell.data(),
@@ -206,7 +255,9 @@ std::optional<CubeView> DirectionTable::cube_view() const {
                   .entries = table_.entries.view(),
                   .nearest = radii.nearest.data(),
                   .edge_functions = table_.forms.edge_functions.data(),
-                  .scale = table_.forms.scale,
+                  .mesh = {},
+                  .drift = {},
+                  .scale = scale,
                   .winding_at_centre = winding_at_centre_.value_or(0),
                   .nearest_squared = radii.least_squared,
                   .furthest_squared = radii.greatest_squared};
@@ -214,12 +265,13 @@ std::optional<CubeView> DirectionTable::cube_view() const {
 
 RadialTableSize DirectionTable::table_size() const noexcept {
   Index longest = 0;
-  for (const CellRow& row : table_.entries.row) longest = std::max(longest, row.last - row.first);
-  const auto& [radii, pyramid] = rejection_.last();
-  return {.cells = table_.entries.row.size(),
-          .entries = table_.entries.count(),
-          .bytes = table_.entries.bytes() + table_.forms.bytes() + table_.slack.bytes() + radii.bytes() +
-                   pyramid.size() * sizeof(PackedInterval) + triangles_at_.bytes(),
+  for (const CellRow& row : entries().row) longest = std::max(longest, row.last - row.first);
+  const auto& [radii, pyramid, scale] = rejection_.last();
+  return {.cells = entries().row.size(),
+          .entries = entries().count(),
+          .bytes = entries().bytes() + cartesian_.box.size() * sizeof(CartesianBox) + table_.forms.bytes() +
+                   table_.slack.bytes() + radii.bytes() + pyramid.size() * sizeof(PackedInterval) +
+                   triangles_at_.bytes(),
           .longest_list = longest};
 }
 

@@ -12,6 +12,7 @@
 #include "condyle/joint_checks.hpp"
 #include "core/predicates.hpp"
 #include "support/joint_text.hpp"
+#include "support/same_bits.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 

@@ -2,6 +2,7 @@
 
 #include "condyle/io/mesh_file.hpp"
 #include "support/mesh_bytes.hpp"
+#include "support/same_bits.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {

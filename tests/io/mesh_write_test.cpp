@@ -20,6 +20,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "support/complaint.hpp"
+#include "support/same_bits.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 

@@ -14,6 +14,7 @@
 #include "rom_scene.hpp"
 #include "support/complaint.hpp"
 #include "support/report_block.hpp"
+#include "support/same_bits.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle::test {

@@ -10,8 +10,18 @@
 namespace condyle::radial {
 namespace {
 
-template <class Map>
-std::map<Index, CellOverlap> cells_of(const Map& map, const Cone& cone) {
+/// On the paper's map with the radii of the whole triangle: it says none.
+std::map<Index, CellOverlap> cells_of(const CartesianMap& map, const Cone& cone) {
+  std::map<Index, CellOverlap> cells;
+  const auto box = map.box_of(cone.a.normalized(), cone.b.normalized(), cone.c.normalized());
+  map.visit_cells(box, [&](Index cell) {
+    EXPECT_TRUE(cells.emplace(cell, CellOverlap{cell, 0, HUGE_VAL}).second)
+        << "cell " << cell << " visited twice";
+  });
+  return cells;
+}
+
+std::map<Index, CellOverlap> cells_of(const CubeMap& map, const Cone& cone) {
   std::map<Index, CellOverlap> cells;
   map.visit_cells(cone, [&](const CellOverlap& overlap) {
     EXPECT_TRUE(cells.emplace(overlap.cell, overlap).second) << "cell " << overlap.cell << " visited twice";

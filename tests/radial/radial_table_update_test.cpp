@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <random>
 
@@ -40,6 +41,25 @@ TEST(RadialTableUpdate, AfterAllVerticesMovedAnswersAreThoseOfANewTable) {
       EXPECT_EQ(table.mesh(), mesh);
       EXPECT_EQ(table.query(points), made_anew.query(points));
       expect_plain_answers(table, points, some_poses(4, 0.2, frame));
+    }
+  }
+}
+
+TEST(RadialTableUpdate, ASurfaceThatHasDriftedIsReadWithSlackForThat) {
+  for (const int cells : {8, 24, 64}) {
+    // The centre outside the solid, and inside.
+    for (TriMesh mesh : {test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4), sphere({0.1, -0.2, 0.05}, 1, 4)}) {
+      const Points rest = mesh.vertices;
+      RadialTable table(mesh, {DirectionMapKind::cube, cells});
+      table.prepare_penetrations();
+      for (unsigned frame = 0; frame < 12; ++frame) {
+        constexpr std::array<double, 4> sizes = {1e-6, 1e-3, 0.01, 0.03};
+        mesh.vertices = jiggled(rest, sizes[frame % 4], frame);
+        table.update(mesh.vertices);
+        const Points near = points_near_surface(mesh, 100, 0.98 + 0.02 * (frame % 3), frame);
+        expect_plain_answers(table, near, {Pose::Identity()});
+        expect_plain_answers(table, near, some_poses(2, 0.1, frame));
+      }
     }
   }
 }

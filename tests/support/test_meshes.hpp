@@ -3,7 +3,6 @@
 #include <array>
 #include <functional>
 #include <initializer_list>
-#include <string_view>
 #include <vector>
 
 #include "condyle/mesh.hpp"
@@ -56,11 +55,6 @@ TriMesh in_floats(TriMesh mesh);
 
 /// Largest distance between vertices of one number.
 double farthest(const PointsView& a, const PointsView& b);
-
-/// Equal to the bit, the sign of 0 included.
-void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b,
-                      std::string_view where = "");
-void expect_same_bits(const TriMesh& a, const TriMesh& b, std::string_view where = "");
 
 /// The mesh with its vertices in the coordinates of the axis.
 TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh);

@@ -47,31 +47,4 @@ void CellEntries::split_rows() {
   }
 }
 
-CellEntries bin_triangles(const TriMesh& mesh, const CartesianMap& map) {
-  struct Entry {
-    Index cell, triangle;
-  };
-  const Index cells = map.cell_count();
-  std::vector<Entry> all;
-  std::vector<std::uint32_t> length(cells, 0);
-  all.reserve(4 * mesh.triangles.size());
-  for (Index t = 0; t < mesh.triangles.size(); ++t) {
-    map.visit_cells({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
-                    [&](const CellOverlap& overlap) {
-                      all.push_back({overlap.cell, t});
-                      ++length[overlap.cell];
-                    });
-  }
-  CellEntries entries;
-  entries.row.resize(cells);
-  entries.triangle.resize(all.size());
-  std::uint32_t first = 0;
-  for (Index cell = 0; cell < cells; ++cell) {
-    entries.row[cell] = {first, first};
-    first += length[cell];
-  }
-  for (const auto& [cell, triangle] : all) entries.triangle[entries.row[cell].last++] = triangle;
-  return entries;
-}
-
 }  // namespace condyle::radial

@@ -22,7 +22,7 @@ struct CellEntries {
   core::UninitialisedVector<CellRow> row;
   core::UninitialisedVector<Index> triangle;
 
-  /// For a cube map only, for its vector code, which reads beyond the last entry: the CellDop of each entry.
+  /// The CellDop of each entry, of a cube map: its vector code reads beyond the last entry.
   core::UninitialisedVector<std::uint32_t> axis, diagonal;
   /// Where the capacity of each row ends, once entries have moved: rows are then no longer in the order of
   /// cells.
@@ -45,8 +45,5 @@ struct CellEntries {
   /// Sorts long rows by halves of their cells. Linear in their entries.
   void split_rows();
 };
-
-/// Triangle by triangle: exact overlap of each cone with each cell of the paper's map.
-CellEntries bin_triangles(const TriMesh& mesh, const CartesianMap& map);
 
 }  // namespace condyle::radial

@@ -56,12 +56,16 @@ void measure(const TriMesh& mesh, TriangleForms& forms) {
                     forms.uncertain);
 }
 
-void build(const TriMesh& mesh, const CubeMap& map, CubeTable& table) {
+void build_rows(const TriMesh& mesh, const CubeMap& map, CubeTable& table) {
   core::UninitialisedVector<std::uint8_t> face(mesh.vertices.size());
   core::UninitialisedVector<FacePoint> place(mesh.vertices.size());
   place_vertices(view_of(mesh.vertices, mesh.triangles), face.data(), place.data());
   table.slack = {};
   bin_all(mesh, map, {face.data(), place.data(), nullptr}, table);
+}
+
+void build(const TriMesh& mesh, const CubeMap& map, CubeTable& table) {
+  build_rows(mesh, map, table);
   measure(mesh, table.forms);
 }
 

@@ -47,7 +47,9 @@ struct CubeTable {
 /// Conservative in every step: triangles are widened by list_margin.
 void build(const TriMesh& mesh, const CubeMap& map, CubeTable& table);
 
-/// Steps of that: rows and 8-DOPs of all triangles, for vertices anywhere between their places;
+/// Steps of that: rows and 8-DOPs, for vertices where they are;
+void build_rows(const TriMesh& mesh, const CubeMap& map, CubeTable& table);
+/// rows and 8-DOPs of all triangles, for vertices anywhere between their places;
 void bin_all(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed, CubeTable& table);
 /// where vertices are, the scale of their radii, and the forms of all triangles.
 void measure(const TriMesh& mesh, TriangleForms& forms);

@@ -2,10 +2,8 @@
 
 #include <array>
 #include <limits>
-#include <numbers>
 
 #include "core/predicates.hpp"
-#include "core/trigonometry.hpp"
 #include "radial/exact/cell_dop.hpp"
 
 namespace condyle::radial {
@@ -120,179 +118,22 @@ void visit_all(Index cell_count, double furthest, const std::function<void(const
   for (Index cell = 0; cell < cell_count; ++cell) visit({cell, 0, furthest});
 }
 
-struct Interval {
-  double low, high;
-};
-
-/// Rounding of 1 - x^2 near the disc's rim, where its root, a coordinate of the direction, is most sensitive:
-/// an error of 4u under the root is one of 2 sqrt(u) = 2.2e-8 beside it.
-constexpr double rim_margin = 5e-8;
-
-/// The directions of a block of Cartesian cells: x and y in two intervals, z >= 0 or z <= 0.
-struct DirectionBox {
-  Interval x, y;
-  double hemisphere;  // +1 or -1
-
-  bool holds(double px, double py) const noexcept {
-    return px >= x.low && px <= x.high && py >= y.low && py <= y.high;
-  }
-
-  /// Whether no direction falls into the box: it lies outside the disc x^2 + y^2 <= 1.
-  bool outside_disc() const noexcept {
-    const auto nearest = [](Interval s) { return s.low > 0 ? s.low : s.high < 0 ? s.high : 0; };
-    const double px = nearest(x), py = nearest(y);
-    return px * px + py * py > 1 + 4 * cell_margin;
-  }
-
-  /// Largest n . d over the box, but for rim_margin. Where n itself lies in the box it is |n|; else the
-  /// largest value is on the border: on a side, which is an arc of a circle, or on the rim z = 0.
-  double largest(const Vec3& n) const noexcept {
-    const double length = n.norm();
-    const double up = hemisphere * n.z();
-    if (up >= 0 && holds(n.x() / length, n.y() / length)) return length;
-    double best = -length;
-    // On the side s = fixed (s is x or y), t runs over an interval and z = sqrt(1 - s^2 - t^2).
-    const auto side = [&](double n_s, double s, double n_t, Interval t) {
-      const double radius = std::sqrt(std::max(0.0, 1 - s * s));
-      const double low = std::max(t.low, -radius), high = std::min(t.high, radius);
-      if (std::abs(s) > 1 + cell_margin || low > high) return;
-      const auto at = [&](double p) {
-        return n_s * s + n_t * p + up * std::sqrt(std::max(0.0, radius * radius - p * p));
-      };
-      best = std::max({best, at(low), at(high)});
-      const double reach = core::hypotenuse(n_t, up);
-      if (up > 0 && reach > 0) best = std::max(best, at(std::clamp(radius * n_t / reach, low, high)));
-    };
-    for (const double s : {x.low, x.high}) side(n.x(), s, n.y(), y);
-    for (const double s : {y.low, y.high}) side(n.y(), s, n.x(), x);
-    const double flat = core::hypotenuse(n.x(), n.y());
-    if (flat > 0 && holds(n.x() / flat, n.y() / flat)) best = std::max(best, flat);
-    return best;
-  }
-
-  /// Bounds of n . d over the box, for n known to within `error` in each component.
-  Interval times(const Vec3& n, double error) const noexcept {
-    const double margin = (cell_margin + rim_margin) * n.cwiseAbs().sum() + 2 * error;
-    return {-largest(-n) - margin, largest(n) + margin};
-  }
-};
-
-/// Bounds of one triangle for the descent through blocks of Cartesian cells.
-struct ConeBounds {
-  Vec3 edge[3];  // inward normals of the cone's sides, each component known to within edge_error
-  double edge_error;
-  Vec3 normal;  // of the triangle's plane, turned away from the origin
-  double normal_error;
-  Interval distance;  // of the origin from the plane, times |normal|
-  Interval radius;
-  Vec3 cap_axis;  // the cone lies within a cap: cap_axis . d >= cap_cosine, where that is positive
-  double cap_cosine;
-
-  explicit ConeBounds(const Cone& cone, double nearest)
-      : edge{cone.a.cross(cone.b), cone.b.cross(cone.c), cone.c.cross(cone.a)},
-        radius{nearest, max_radius(cone)} {
-    const PlaneNormal plane(cone);
-    edge_error = 4 * core::rounding_unit * radius.high * radius.high;
-    normal = plane.n;
-    normal_error = plane.error;
-    double along = normal.dot(cone.a);
-    if (along < 0) {
-      for (auto& n : edge) n = -n;
-      normal = -normal;
-      along = -along;
-    }
-    const double slack = (cell_margin * normal.norm() + 2 * normal_error) * radius.high;
-    distance = {along - slack, along + slack};
-    const Vec3 a = cone.a.normalized(), b = cone.b.normalized(), c = cone.c.normalized();
-    cap_axis = (a + b + c).normalized();
-    cap_cosine = std::min({cap_axis.dot(a), cap_axis.dot(b), cap_axis.dot(c)}) - cell_margin;
-  }
-
-  /// Interval of coordinate k over the cap's directions.
-  Interval coordinate(int k) const noexcept {
-    if (cap_cosine <= 0) return {-1, 1};
-    const double middle = core::arccosine(std::clamp(cap_axis[k], -1.0, 1.0));
-    const double opening = core::arccosine(std::min(cap_cosine, 1.0));
-    return {core::cosine(std::min(middle + opening, std::numbers::pi)) - rim_margin,
-            core::cosine(std::max(middle - opening, 0.0)) + rim_margin};
-  }
-
-  /// The radius interval over the box, or an empty one (low > high) where the cone does not meet it.
-  ///
-  /// In direction d the plane lies at radius distance / (normal . d). A cone seen edge-on has side normals
-  /// whose sense is rounding: they then bound nothing, and only the plane and the radii decide.
-  Interval over(const DirectionBox& box) const noexcept {
-    constexpr Interval empty{1, 0};
-    // A cap holds the cone of three directions in it only where it is no more than a hemisphere. Without this
-    // test, a cone seen edge-on would be put along its sides' whole great circle.
-    if (cap_cosine > 0 && box.times(cap_axis, core::rounding_unit).high < cap_cosine) return empty;
-    const bool faces_origin = distance.low > 0;
-    const Interval along = box.times(normal, normal_error);
-    if (faces_origin) {
-      if (along.high <= 0) return empty;
-      for (const auto& n : edge) {
-        if (box.times(n, edge_error).high < 0) return empty;
-      }
-    }
-    // No direction of the box reaches the plane within the triangle's radii.
-    if (std::max(along.high * radius.high, along.high * radius.low) < distance.low) return empty;
-    if (along.low * radius.low > distance.high) return empty;
-    Interval result = radius;
-    if (faces_origin) result.low = std::max(result.low, distance.low / along.high * (1 - radius_margin));
-    if (along.low > 0) result.high = std::min(result.high, distance.high / along.low * (1 + radius_margin));
-    return result;
-  }
-};
-
 }  // namespace
 
 double min_radius(const Cone& cone) noexcept {
   return min_radius(polygon_of(cone), PlaneNormal(cone));
 }
 
-void CartesianMap::visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const {
-  const double nearest = min_radius(cone);
-  if (is_close(cone, nearest)) return visit_all(cell_count(), max_radius(cone), visit);
-  const ConeBounds bounds(cone, nearest);
-
-  struct Block {
-    int hemisphere, i0, i1, j0, j1;
-  };
-  const auto box_of = [this](const Block& block) {
-    const double step = 2.0 / n_;
-    return DirectionBox{{block.i0 * step - 1 - cell_margin, block.i1 * step - 1 + cell_margin},
-                        {block.j0 * step - 1 - cell_margin, block.j1 * step - 1 + cell_margin},
-                        block.hemisphere == 0 ? 1.0 : -1.0};
-  };
-
-  // A descent halves the longer side of one block and keeps the other half waiting: at most 2 log2(n) wait at
-  // a time.
-  std::array<Block, 72> waiting;
-  std::size_t count = 0;
-  const Interval x = bounds.coordinate(0), y = bounds.coordinate(1), z = bounds.coordinate(2);
-  const int i0 = column(x.low), i1 = column(x.high) + 1, j0 = column(y.low), j1 = column(y.high) + 1;
-  if (z.high >= 0) waiting[count++] = {0, i0, i1, j0, j1};
-  if (z.low <= 0) waiting[count++] = {1, i0, i1, j0, j1};
-  while (count > 0) {
-    const Block block = waiting[--count];
-    const DirectionBox box = box_of(block);
-    if (box.outside_disc()) continue;
-    const Interval radius = bounds.over(box);
-    if (radius.low > radius.high) continue;
-    const int width = block.i1 - block.i0, height = block.j1 - block.j0;
-    if (width == 1 && height == 1) {
-      visit({static_cast<Index>(((block.hemisphere == 1 ? n_ : 0) + block.j0) * n_ + block.i0), radius.low,
-             radius.high});
-    } else if (width >= height) {
-      const int middle = block.i0 + width / 2;
-      waiting[count++] = {block.hemisphere, block.i0, middle, block.j0, block.j1};
-      waiting[count++] = {block.hemisphere, middle, block.i1, block.j0, block.j1};
-    } else {
-      const int middle = block.j0 + height / 2;
-      waiting[count++] = {block.hemisphere, block.i0, block.i1, block.j0, middle};
-      waiting[count++] = {block.hemisphere, block.i0, block.i1, middle, block.j1};
-    }
-  }
+CartesianBox CartesianMap::box_of(const Vec3& a, const Vec3& b, const Vec3& c) const noexcept {
+  const auto side = static_cast<std::int16_t>(n_);
+  const double longest_squared =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  if (!(longest_squared < 3 - cell_margin)) return {0, side, 0, side, true, true};
+  const double bulge = 1 - std::sqrt(1 - longest_squared / 3) + cell_margin;
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  const auto first = [&](int k) { return static_cast<std::int16_t>(column(low[k] - bulge)); };
+  const auto end = [&](int k) { return static_cast<std::int16_t>(column(high[k] + bulge) + 1); };
+  return {first(0), end(0), first(1), end(1), high.z() >= -cell_margin, low.z() <= cell_margin};
 }
 
 CellPlace CubeMap::place_of(const Vec3& v) const noexcept {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 #include "condyle/pose.hpp"
@@ -20,11 +21,16 @@ struct CellOverlap {
   double min_radius, max_radius;
 };
 
+/// Cells [first, end) of columns and rows, on the grid of d.z >= 0 and on that of d.z < 0, or on one of them.
+struct CartesianBox {
+  std::int16_t first_column, end_column, first_row, end_row;
+  bool has_upper, has_lower;
+
+  friend bool operator==(const CartesianBox&, const CartesianBox&) = default;
+};
+
 /// The paper's normalised Cartesian map: a direction d = v / |v| falls into cell (d.x, d.y) of an N x N grid
-/// over [-1, 1]^2, one grid for d.z >= 0 and one for d.z < 0.
-///
-/// Cells are descended to by halving blocks of them: a block is left where a side of the cone, or the
-/// triangle's plane at the triangle's radii, keeps off all of its directions. Cells near the rim of the disc
+/// over [-1, 1]^2, one grid for d.z >= 0 and one for d.z < 0. Cells near the rim of the disc
 /// span many directions and their lists are long: that is the map's weakness.
 class CartesianMap {
  public:
@@ -42,8 +48,22 @@ class CartesianMap {
     return static_cast<Index>(((v.z() < 0 ? n_ : 0) + j) * n_ + i);
   }
 
-  /// Calls visit(CellOverlap) once for each cell the cone meets.
-  void visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const;
+  /// Cells that hold all that the cone of three unit vectors meets. With L the longest distance between them, a point q of their
+  /// plane triangle has |q|^2 >= 1 - L^2 / 3 (see measure_triangles()), so that its direction is at most
+  /// 1 - sqrt(1 - L^2 / 3) away from it: edges that bulge and a pole within the triangle are covered. From L^2 = 3 on
+  /// the triangle may pass through the centre: all cells.
+  CartesianBox box_of(const Vec3& a, const Vec3& b, const Vec3& c) const noexcept;
+
+  /// Calls visit(cell) once for each cell of the box.
+  void visit_cells(const CartesianBox& box, const auto& visit) const {
+    const auto grid = [&](int first) {
+      for (int row = box.first_row; row < box.end_row; ++row)
+        for (int column = box.first_column; column < box.end_column; ++column)
+          visit(static_cast<Index>((first + row) * n_ + column));
+    };
+    if (box.has_upper) grid(0);
+    if (box.has_lower) grid(n_);
+  }
 
  private:
   int column(double s) const noexcept {

@@ -118,9 +118,11 @@ HWY_INLINE void transpose(D, [[maybe_unused]] std::array<V, 4>& v) {
 #endif
 }
 
-/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
+/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order. `of_pairs` are they where the
+/// table has none.
 HWY_INLINE void evaluate_edges(const CubeView& cube, const NearPoints& points,
-                               const QueryConstants& constants, Pairs& pairs, Crossings& out) {
+                               const QueryConstants& constants, const EdgeFunctions* of_pairs, Pairs& pairs,
+                               Crossings& out) {
   // Four pairs side by side; without vectors one, of which each form is a "vector".
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToUnsigned<decltype(d4)> du4;
@@ -130,7 +132,9 @@ HWY_INLINE void evaluate_edges(const CubeView& cube, const NearPoints& points,
   for (std::size_t k = 0; pairs.count > 0 && k < ahead + side_by_side; ++k) {
     pairs.triangle[pairs.count + k] = pairs.triangle[last], pairs.point[pairs.count + k] = pairs.point[last];
   }
-  const auto fetch = [&](std::size_t i) { hwy::Prefetch(cube.edge_functions + pairs.triangle[i]); };
+  const auto fetch = [&](std::size_t i) {
+    if (!of_pairs) hwy::Prefetch(cube.edge_functions + pairs.triangle[i]);
+  };
   for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
   std::size_t end = Crossings::begin;
   for (std::size_t i = 0; i < pairs.count; i += side_by_side) {
@@ -138,7 +142,7 @@ HWY_INLINE void evaluate_edges(const CubeView& cube, const NearPoints& points,
     for (std::size_t k = 0; k < side_by_side; ++k) fetch(i + ahead + k);
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t pair = side_by_side == 4 ? i + k : i, lane = side_by_side == 4 ? 0 : k;
-      const EdgeFunctions& forms = cube.edge_functions[pairs.triangle[pair]];
+      const EdgeFunctions& forms = of_pairs ? of_pairs[pair] : cube.edge_functions[pairs.triangle[pair]];
       const std::uint32_t point = pairs.point[pair];
       const auto x = hn::LoadU(d4, forms.x + lane), y = hn::LoadU(d4, forms.y + lane),
                  z = hn::LoadU(d4, forms.z + lane);
@@ -187,7 +191,9 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
       if (count > Pairs::most) break;
       pairs.count = count;
     }
-    evaluate_edges(cube, points, constants, pairs, crossings);
+    const EdgeFunctions* of_pairs = nullptr;
+    if (!cube.edge_functions) of_pairs = scratch.forms.measure(cube, {pairs.triangle.data(), pairs.count});
+    evaluate_edges(cube, points, constants, of_pairs, pairs, crossings);
     if (cube.winding_at_centre == 0) {
       decide_from_outside(points, crossings, scratch.decisions, found);
     } else {
@@ -212,6 +218,19 @@ namespace condyle::radial {
 
 HWY_EXPORT(find_candidates_any);
 HWY_EXPORT(inside_points_any);
+
+const EdgeFunctions* FormsOnDemand::measure(const CubeView& cube, std::span<const std::uint32_t> triangles) {
+  corners_.resize(std::max(corners_.size(), triangles.size()));
+  forms_.resize(std::max(forms_.size(), triangles.size() + vector_padding));
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    std::copy_n(cube.mesh.corner + 3 * std::size_t{triangles[i]}, 3, corners_[i].data());
+  MeshView view = cube.mesh;
+  view.corner = corners_.empty() ? nullptr : corners_[0].data(), view.triangles = triangles.size();
+  uncertain_.clear();
+  count_ += triangles.size();
+  measure_triangles(view, 0, triangles.size(), cube.scale, forms_.data(), uncertain_);
+  return forms_.data();
+}
 
 void find_candidates(const EntryView& entries, std::span<const CellPlace> places, std::uint32_t* end,
                      std::uint32_t* found) {

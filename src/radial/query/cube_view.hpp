@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "radial/build/cell_row.hpp"
+#include "radial/build/cube_passes.hpp"
 #include "radial/build/edge_functions.hpp"
 #include "radial/exact/cell_dop.hpp"
 
@@ -12,10 +13,15 @@
 
 namespace condyle::radial {
 
-using simd::greatest_radius_code, simd::IntervalScale;
-
 /// Greatest translation of a pose, over the distance of the nearest surface, at which floats are trusted.
 inline constexpr double largest_translation = 4;
+
+/// How far the surface may have moved since its radii were found: a point of it by so many mm, and seen from the centre by a
+/// cap of directions with this sine, for which a level of the pyramid has slack. All 0 where it has not moved.
+struct Drift {
+  float mm = 0, sine = 0;
+  int level = 0;
+};
 
 struct CubeView {
   int cells_per_side;
@@ -24,7 +30,10 @@ struct CubeView {
   const PackedInterval* pyramid;  ///< see DirectionPyramid
   EntryView entries;
   const std::uint8_t* nearest;  ///< code of the least squared radius of each entry's triangle, its upper half
-  const EdgeFunctions* edge_functions;  ///< of each triangle
+  const EdgeFunctions*
+      edge_functions;  ///< of each triangle; null: measured for each pair of a point and a triangle
+  MeshView mesh;       ///< for that
+  Drift drift;
   IntervalScale scale;
   int winding_at_centre;
   float nearest_squared;   ///< no surface is nearer to the centre

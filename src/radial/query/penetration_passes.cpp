@@ -92,6 +92,14 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const Projection& place, Int
   return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(face, n), row), n), col));
 }
 
+/// Squared radii, all within the least and the greatest, of what is up to `by` nearer or further away.
+HWY_INLINE void widen(float by, Floats& least, Floats& greatest) {
+  const auto zero = hn::Zero(d);
+  const auto nearest = hn::Max(hn::Sub(hn::Sqrt(hn::Max(least, zero)), hn::Set(d, by)), zero);
+  const auto furthest = hn::Add(hn::Sqrt(hn::Max(greatest, zero)), hn::Set(d, by));
+  least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
+}
+
 /// A block's cap about R axis + t / |p| holds the directions of R p + t, and its radii grow as this says.
 ///
 ///     | R p + t - (|p| / m) (m R axis + t) | <= |p| chord + |t| | |p| / m - 1 |,   1 / m the mean inverse
@@ -100,8 +108,11 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const Projection& place, Int
 /// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here,
 /// those of the points later, and a rotation that is one to 1e-6.
 ///
+/// A surface that has drifted by d meets a radius r in a direction only where, as it was, it came to r - d or further out and
+/// to r + d or further in, in directions that d is seen away.
+///
 /// Blocks from `block` on, one to a lane.
-template <bool translated>
+template <bool translated, bool drifted>
 HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
                                  std::size_t block) {
   const auto& r = pose.rotation;
@@ -130,6 +141,10 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
     least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
     greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
   }
+  if constexpr (drifted) {
+    sine = hn::Add(sine, hn::Set(d, cube.drift.sine));
+    widen(cube.drift.mm, least, greatest);
+  }
   const Projection place(d, ax, ay, az);
   // With L the length of (1, u, w) and M that of (1, max(|u|, |w|)), a cap with that sine moves a coordinate of
   // the face by at most sine L M / (1 - sine L).
@@ -151,13 +166,13 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
   return hn::Or(radii_meet(entry, reached), hn::Not(hn::RebindMask(du, in_pyramid)));
 }
 
-template <bool translated>
+template <bool translated, bool drifted>
 std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
                         const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < parent_count * 16; i += hn::Lanes(d)) {
     const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
-    const auto near = hn::And(are_near<translated>(cube, blocks, pose, block),
+    const auto near = hn::And(are_near<translated, drifted>(cube, blocks, pose, block),
                               hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
     const auto number = numbers_from(du, block);
     store_compacted(du, number, near, found + count);
@@ -168,8 +183,10 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
 
 std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
                             const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
-  return pose.distance > 0 ? near_blocks<true>(cube, blocks, pose, parents, parent_count, found)
-                           : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
+  const auto find = [&](const auto& near) { return near(cube, blocks, pose, parents, parent_count, found); };
+  if (cube.drift.mm > 0)
+    return pose.distance > 0 ? find(near_blocks<true, true>) : find(near_blocks<false, true>);
+  return pose.distance > 0 ? find(near_blocks<true, false>) : find(near_blocks<false, false>);
 }
 
 /// Squared radius beyond which no exit is the nearer one, as a code. A point at radius r that is inside
@@ -191,8 +208,21 @@ HWY_INLINE Words relevant_code(const CubeView& cube, Floats squared, Words entry
   return hn::BitCast(du, interval_codes(d, cube.scale, hn::Mul(limit, hn::Set(d, 1 + 0x1p-12f))));
 }
 
-void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+/// The same of a surface that has drifted by d, from its triangles' least radii as they were: 2 r - (l - d) + d.
+HWY_INLINE Words relevant_code_drifted(const CubeView& cube, Floats squared, Words entry) {
+  if (cube.winding_at_centre > 0) return hn::Set(du, greatest_radius_code);
+  const auto code = hn::BitCast(di, hn::And(entry, hn::Set(du, 0xffff)));
+  const auto bits = hn::Add(hn::Set(di, cube.scale.base), hn::ShiftLeftSame(code, cube.scale.shift));
+  const auto least = hn::IfThenZeroElse(hn::RebindMask(d, hn::Eq(code, hn::Zero(di))), hn::BitCast(d, bits));
+  const auto limit = hn::Add(hn::Sub(hn::Mul(hn::Set(d, 2.0f), hn::Sqrt(squared)), hn::Sqrt(least)),
+                             hn::Set(d, 2 * cube.drift.mm));
+  const auto widened = hn::Mul(hn::Mul(limit, limit), hn::Set(d, 1 + 0x1p-12f));
+  return hn::BitCast(du, interval_codes(d, cube.scale, widened));
+}
+
+template <bool drifted>
+void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                 const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
   const auto& r = pose.rotation;
   const auto& t = pose.translation;
   const int finest = cube.cells_per_side;
@@ -211,14 +241,19 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       const auto y = hn::Add(dot(px, py, pz, r[3], r[4], r[5]), hn::Set(d, t[1]));
       const auto z = hn::Add(dot(px, py, pz, r[6], r[7], r[8]), hn::Set(d, t[2]));
       const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-      const auto code = interval_codes(d, cube.scale, squared);
+      auto least = squared, greatest = squared;
+      if constexpr (drifted) widen(cube.drift.mm, least, greatest);
+      const auto lowest = interval_codes(d, cube.scale, least);
+      const auto highest = drifted ? interval_codes(d, cube.scale, greatest) : lowest;
       const Projection place(d, x, y, z);
       const auto u = column(place.u, finest * parts_per_cell), w = column(place.w, finest * parts_per_cell);
       const auto n = hn::Set(di, finest);
       const auto cell =
           hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), hn::ShiftRight<8>(w)), n), hn::ShiftRight<8>(u));
-      const auto entry = hn::GatherIndex(du, cube.radii, cell);
-      auto near = radii_meet(entry, reach(code, code));
+      const auto entry = drifted ? hn::GatherIndex(du, cube.pyramid,
+                                                   pyramid_index(cube, place, hn::Set(di, cube.drift.level)))
+                                 : hn::GatherIndex(du, cube.radii, cell);
+      auto near = radii_meet(entry, reach(lowest, highest));
       if (HWY_UNLIKELY(first + 16 > points.size)) {
         near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
       }
@@ -233,12 +268,22 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       store_compacted(d, z, near_float, found.z.data() + count);
       store_compacted(du, hn::BitCast(du, cell), near, found.cell.data() + count);
       store_compacted(du, hn::BitCast(du, box), near, found.box.data() + count);
-      store_compacted(du, relevant_code(cube, squared, entry), near, found.relevant.data() + count);
+      const auto relevant =
+          drifted ? relevant_code_drifted(cube, squared, entry) : relevant_code(cube, squared, entry);
+      store_compacted(du, relevant, near, found.relevant.data() + count);
       store_compacted(du, numbers_from(du, at), near, found.point.data() + count);
       count += hn::CountTrue(du, near);
     }
   }
   found.count = count;
+}
+
+void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  if (cube.drift.mm > 0)
+    near_points<true>(cube, points, pose, blocks, block_count, found);
+  else
+    near_points<false>(cube, points, pose, blocks, block_count, found);
 }
 
 }  // namespace

@@ -4,8 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
+#include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
+#include "core/uninitialised.hpp"
 #include "radial/exact/direction_map.hpp"
 #include "radial/query/cube_view.hpp"
 
@@ -114,8 +118,24 @@ struct Decisions {
   std::array<std::uint32_t, points_per_batch + vector_padding> kept;
 };
 
-/// Scratch of inside_points(), 150 kB.
+/// Forms of triangles of a table that has none: measured where they are needed, each time.
+class FormsOnDemand {
+ public:
+  /// Of each triangle, in their order; until the next call.
+  const EdgeFunctions* measure(const CubeView& cube, std::span<const std::uint32_t> triangles);
+  /// How many were measured since this was last asked.
+  std::size_t take_count() noexcept { return std::exchange(count_, 0); }
+
+ private:
+  std::size_t count_ = 0;
+  core::UninitialisedVector<Triangle> corners_;
+  core::UninitialisedVector<EdgeFunctions> forms_;
+  std::vector<std::uint32_t> uncertain_;
+};
+
+/// Scratch of inside_points(), 150 kB; 450 kB with forms.
 struct CrossingScratch {
+  FormsOnDemand forms;
   Pairs pairs;
   QueryConstants constants;
   Crossings crossings;

@@ -76,9 +76,20 @@ std::optional<Search> search_in(const ExactView& table, const std::optional<Cube
   return Search{*cube, points_of(points), pose, static_cast<float>(bound)};
 }
 
-/// For `count` points found from `first` on: gaps to the planes of their triangles.
-void find_gaps(const PointBlocks& points, const EdgeFunctions* all_functions, const Pose& X_FM,
-               const PointResults& found, std::size_t first, std::size_t count, GapColumns& out) {
+/// Forms of the triangles of points found from `first` on; no form of those that are uncertain is read.
+const EdgeFunctions* forms_of(const CubeView& cube, const PointResults& found, std::size_t first,
+                              std::size_t count, FormsOnDemand& on_demand) {
+  std::array<std::uint32_t, GapColumns::size> triangle;
+  for (std::size_t i = 0; i < count; ++i)
+    triangle[i] = found.point[first + i].uncertain ? 0 : found.point[first + i].triangle;
+  return on_demand.measure(cube, {triangle.data(), count});
+}
+
+/// For `count` points found from `first` on: gaps to the planes of their triangles. `of_points` are their forms where the table
+/// has none.
+void find_gaps(const PointBlocks& points, const EdgeFunctions* all_functions, const EdgeFunctions* of_points,
+               const Pose& X_FM, const PointResults& found, std::size_t first, std::size_t count,
+               GapColumns& out) {
   constexpr std::size_t ahead = 16;
   constexpr EdgeFunctions none{};  // what becomes of one that is uncertain is not read
   const Vec3* const all_points = &points[0];
@@ -86,7 +97,9 @@ void find_gaps(const PointBlocks& points, const EdgeFunctions* all_functions, co
     const PointResult& at = found.point[first + i];
     __builtin_prefetch(all_points + found.point[std::min(first + i + ahead, found.count - 1)].point);
     const Vec3& p = all_points[at.point];
-    const EdgeFunctions& functions = at.uncertain ? none : all_functions[at.triangle];
+    const EdgeFunctions& functions = at.uncertain ? none
+                                     : of_points  ? of_points[i]
+                                                  : all_functions[at.triangle];
     out.point[0][i] = p.x(), out.point[1][i] = p.y(), out.point[2][i] = p.z();
     const Vec3 normal = functions.scaled_normal();
     for (int k = 0; k < 3; ++k) out.normal[k][i] = normal[k];
@@ -106,8 +119,8 @@ class Answers {
         scan_(table.mesh, table.winding_at_centre),
         candidates_(table.map, table.entries) {}
 
-  /// Depths in double. `functions` are not read if all are uncertain.
-  void add(const PointResults& found, const EdgeFunctions* functions) {
+  /// Depths in double. `cube` is null if all are uncertain.
+  void add(const PointResults& found, const CubeView* cube, FormsOnDemand& on_demand) {
     std::size_t count = out_.size();
     out_.resize(count + found.count);
     gathered_ = 0, next_ = 0;
@@ -115,7 +128,10 @@ class Answers {
     for (std::size_t i = 0; i < found.count; ++i) {
       const std::size_t in_turn = i % GapColumns::size;
       if (in_turn == 0) {
-        find_gaps(points_, functions, X_FM_, found, i, std::min(GapColumns::size, found.count - i), gaps);
+        const std::size_t part = std::min(GapColumns::size, found.count - i);
+        const EdgeFunctions* const all = cube ? cube->edge_functions : nullptr;
+        const EdgeFunctions* const some = cube && !all ? forms_of(*cube, found, i, part, on_demand) : nullptr;
+        find_gaps(points_, all, some, X_FM_, found, i, part, gaps);
       }
       const PointResult& at = found.point[i];
       out_.point[count] = points_.index()[at.point];
@@ -178,7 +194,7 @@ void decide_one_by_one(const PointBlocks& points, PenetrationScratch& scratch, A
     all.count = std::min(points_per_batch, points.size() - first);
     for (std::size_t i = 0; i < all.count; ++i)
       all.point[i] = PointResult::left_open(static_cast<std::uint32_t>(first + i));
-    answers.add(all, nullptr);
+    answers.add(all, nullptr, scratch.crossing.forms);
   }
 }
 
@@ -188,7 +204,7 @@ void decide(const Search& search, PenetrationScratch& scratch, Answers& answers,
   if (near.count == 0) return;
   PointResults& found = scratch.found;
   const std::size_t tried = inside_points(search.cube, near, search.form_bound, scratch.crossing, found);
-  answers.add(found, search.cube.edge_functions);
+  answers.add(found, &search.cube, scratch.crossing.forms);
   if (!work) return;
   work->near_points += near.count;
   work->triangles += tried;

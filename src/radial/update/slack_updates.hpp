@@ -12,11 +12,11 @@ void init_slack(const TriMesh& mesh, CubeTable& table);
 
 /// The vertices of a mesh have moved. Rows stay as they are where all three vertices of a triangle are in
 /// their slack rectangles. A vertex that left its slack is given one that holds where it was and is, and a
-/// sixteenth of a cell around that, so that what it does again costs nothing. Radii of cells are out of date
-/// then.
+/// sixteenth of a cell around that, so that what it does again costs nothing. Forms of triangles and radii of cells are out of
+/// date then. Whether any row changed.
 ///
-/// Linear: measuring all triangles, and binning those at vertices that left their slack.
-void follow_vertices(const TriMesh& mesh, const CubeMap& map, CubeTable& table);
+/// Linear: looking at all vertices, and binning the triangles at those that left their slack.
+bool follow_rows(const TriMesh& mesh, const CubeMap& map, CubeTable& table);
 
 /// The same for some vertices, with `triangles` all triangles at them. Radii, where they are given, are kept
 /// current: those of the cells that these triangles are in are found. Costs what these triangles and the rows

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "condyle/error.hpp"
@@ -16,6 +18,22 @@ void require_in_range(PointsView positions) {
                     (positions[*i].allFinite() ? "beyond 1e30 mm" : "not a finite number"));
 }
 
+/// The drift of a surface by up to so many mm, which was no nearer to the centre than that; empty where the finest tiles of the
+/// pyramid have no slack for it.
+///
+/// A point that moves by d from a distance of at least r is seen to move by at most asin(d / r), a chord of 1.04 d / r up to
+/// r / 4, and on a face by at most sqrt(6) times that over 1 - sqrt(3) times that: see are_near() in penetration_passes.cpp.
+std::optional<Drift> drift_of(double moved_mm, double nearest_mm, int cells_per_side) {
+  const double mm = moved_mm * (1 + 0x1p-20) + 0x1p-60;
+  if (!(mm < nearest_mm / 4) || !std::isfinite(nearest_mm)) return {};
+  const double sine = 1.04 * mm / nearest_mm, opening = std::sqrt(3.0) * sine;
+  if (opening > 0.5) return {};
+  const double cells = 0.5 * cells_per_side * std::sqrt(6.0) * sine / (1 - opening) * (1 + 0x1p-10) + 0.01;
+  const int level = cells <= 1 ? 0 : cells <= 2 ? 1 : 2;
+  if (cells > 3 || level >= DirectionPyramid::level_count(cells_per_side)) return {};
+  return Drift{static_cast<float>(mm * (1 + 0x1p-20)), static_cast<float>(sine * (1 + 0x1p-20)), level};
+}
+
 }  // namespace
 
 TriMesh& DirectionTable::deforming_mesh() {
@@ -31,26 +49,65 @@ void DirectionTable::update(PointsView vertices) {
   require_in_range(vertices);
   TriMesh& deforming = deforming_mesh();
   if (cube()) init_slack(deforming, table_);
-  Points before;
-  before.x.assign(vertices.x.begin(), vertices.x.end());
-  before.y.assign(vertices.y.begin(), vertices.y.end());
-  before.z.assign(vertices.z.begin(), vertices.z.end());
-  std::swap(before, deforming.vertices);
+  spare_.x.assign(vertices.x.begin(), vertices.x.end());
+  spare_.y.assign(vertices.y.begin(), vertices.y.end());
+  spare_.z.assign(vertices.z.begin(), vertices.z.end());
+  std::swap(spare_, deforming.vertices);
   try {
-    follow_all();
+    follow_all(spare_);
   } catch (...) {
-    deforming.vertices = std::move(before);
+    std::swap(spare_, deforming.vertices);
     build_parts();
     throw;
   }
 }
 
-void DirectionTable::follow_all() {
-  rejection_.make_out_of_date();
-  if (!cube()) return build_parts();
-  follow_vertices(mesh(), *cube(), table_);
+void DirectionTable::follow_all(const Points& before) {
+  if (!cube()) return follow_on_paper_map();
+  keep_rejection_parts(before);
+  if (follow_rows(mesh(), *cube(), table_)) {
+    // No longer those of the entries: none is too far out.
+    earlier_.parts.radii.nearest.assign(table_.entries.triangle.size(), 0);
+  }
+  forms_measured_.make_out_of_date();
+  measured_on_demand_ = 0;
+  earlier_.drift = move_corners();
+  if (!earlier_.drift) {
+    measure_forms();
+    require_centre_off_surface();
+  }
+  find_winding_at_centre();
+}
+
+void DirectionTable::follow_on_paper_map() {
+  require_no_corner_at_centre();
+  follow_vertices(mesh(), std::get<CartesianMap>(map_), cartesian_);
   require_centre_off_surface();
   find_winding_at_centre();
+}
+
+/// Those of the vertices as they were just before.
+void DirectionTable::keep_rejection_parts(const Points& before) {
+  RejectionParts* const current = rejection_.current();
+  if (!current) return;
+  std::swap(earlier_.parts, *current);
+  earlier_.vertices = before;
+  rejection_.make_out_of_date();
+}
+
+/// How far vertices have moved since the earlier rejection parts were made. A point of a triangle moves no further than its
+/// corners; a surface that keeps off the centre all the way winds as it did.
+std::optional<Drift> DirectionTable::move_corners() {
+  const Points& now = mesh().vertices;
+  auto& corner = table_.forms.corner;
+  for (std::size_t i = 0; i < now.size(); ++i) corner[i] = now[i];
+  const Points& then = earlier_.vertices;
+  if (then.size() == 0) return {};
+  double furthest_squared = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    furthest_squared = std::max(furthest_squared, (corner[i] - then[i]).squaredNorm());
+  return drift_of(std::sqrt(furthest_squared), std::sqrt(double{earlier_.parts.radii.least_squared}),
+                  cube()->cells_per_side());
 }
 
 void DirectionTable::update(std::span<const Index> moved, PointsView positions) {
@@ -76,7 +133,9 @@ void DirectionTable::update(std::span<const Index> moved, PointsView positions) 
 }
 
 void DirectionTable::follow_some(std::span<const Index> moved) {
-  if (!cube()) return build_parts();
+  if (!cube()) return follow_on_paper_map();
+  earlier_ = {};
+  measure_forms();
   if (triangles_at_.empty()) triangles_at_ = mesh::VertexTriangles(mesh());
   const std::vector<Index> triangles = triangles_at_.of(moved);
   RejectionParts* parts = rejection_.current();
