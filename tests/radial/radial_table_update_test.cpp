@@ -64,6 +64,36 @@ TEST(RadialTableUpdate, ASurfaceThatHasDriftedIsReadWithSlackForThat) {
   }
 }
 
+/// The same for its radii: a ball that grows about the centre is met where it was not before.
+TEST(RadialTableUpdate, ASurfaceThatGrowsIsMetWhereItWasNot) {
+  const TriMesh ball = sphere({0, 0, 0}, 1, 5);
+  for (const double size : {1.02, 0.98}) {
+    RadialTable table(ball);
+    table.prepare_penetrations();
+    const TriMesh grown = test::mapped(ball, [&](const Vec3& p) { return Vec3(size * p); });
+    table.update(grown.vertices);
+    for (const double part : {0.1, 0.9})
+      expect_plain_answers(table, points_near_surface(ball, 300, 1 + part * (size - 1), 5),
+                           {Pose::Identity()});
+  }
+}
+
+/// And for its directions: a ball that is seen in the corner of a face, where cells are narrowest, and turns about the centre.
+TEST(RadialTableUpdate, ASurfaceThatTurnsIsMetWhereItWasNotSeen) {
+  const TriMesh ball = sphere({2, 2, 2}, 0.3, 4);
+  RadialTable table(ball, {DirectionMapKind::cube, 64});
+  table.prepare_penetrations();
+  const Pose turned(Eigen::AngleAxisd(0.028, Vec3(1, -1, 0).normalized()));
+  const TriMesh there = test::mapped(ball, [&](const Vec3& p) { return Vec3(turned * p); });
+  table.update(there.vertices);
+  Points points;
+  for (const double part : {0.9, 0.98, 0.995}) {
+    const Points shell = points_near_surface(sphere({0, 0, 0}, 0.3, 4), 4000, part, 6);
+    for (std::size_t i = 0; i < shell.size(); ++i) points.push_back(turned * Vec3(shell[i] + Vec3(2, 2, 2)));
+  }
+  expect_plain_answers(table, points, {Pose::Identity()});
+}
+
 TEST(RadialTableUpdate, AfterSomeVerticesMovedAnswersAreThoseOfANewTable) {
   const Points points = random_points(800, 1.6, 22);
   std::mt19937 random(23);
