@@ -31,6 +31,8 @@ const TableHead table_building_head{
      {"first_update_ns_per_triangle", "all vertices moved for the first time"},
      {"update_ns_per_triangle", "later, ns per triangle"},
      {"update_over_build", "over build"},
+     {"paper_build_ns_per_triangle", "the paper's map: build"},
+     {"paper_update_ns_per_triangle", "later update"},
      {"part_us", "1 in 100 moved, µs"},
      {"part_over_build", "over build"},
      {"cold_part_us", "caches empty, µs"},
@@ -80,9 +82,12 @@ void move_there_and_back(RadialTable& table, const Patch& patch) {
   table.update(patch.vertices, patch.here);
 }
 
+constexpr condyle::radial::RadialOptions papers{.map = condyle::radial::DirectionMapKind::cartesian,
+                                                .cells_per_side = {}};
+
 /// With all that penetrations() reads.
-RadialTable prepared(const TriMesh& mesh) {
-  RadialTable table(mesh);
+RadialTable prepared(const TriMesh& mesh, condyle::radial::RadialOptions options = {}) {
+  RadialTable table(mesh, options);
   table.prepare_penetrations();
   return table;
 }
@@ -102,7 +107,7 @@ double bytes_per_triangle(const RadialTable& table) {
 void ask_building(const Scene& scene, int rounds, Report& report) {
   const TriMesh& fixed = scene.joint.fixed.mesh;
   const auto embree = method_named("embree_16_robust");
-  RadialTable table = prepared(fixed), part_table = prepared(fixed);
+  RadialTable table = prepared(fixed), part_table = prepared(fixed), paper = prepared(fixed, papers);
   const double bytes = bytes_per_triangle(table);
   const std::size_t table_bytes = table.table_size().bytes;
   volatile double kept = 0;
@@ -136,6 +141,10 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
                                         update(first, moved[0]);
                                       },
                                       [&] { prepared(fixed); },
+                                      [&] { prepared(fixed, papers); },
+                                      [&] {
+                                        for (const condyle::Points& vertices : moved) update(paper, vertices);
+                                      },
                                   });
     cold_build = cold_seconds(rounds, [&] { prepared(fixed); });
     cold_part = cold_seconds(rounds, [&] { move_there_and_back(part_table, parts[patch_count / 2]); }) / 2;
@@ -151,7 +160,8 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
       .add({scene.joint.name, static_cast<std::int64_t>(fixed.triangles.size()), per_triangle(build),
             per_triangle(cold_build), embree ? Cell(per_triangle(embree_build)) : Cell("-"),
             per_triangle(floor), per_triangle(first_update), per_triangle(update), update / build,
-            part_update * 1e6, part_update / build, cold_part * 1e6, bytes,
+            per_triangle(median(samples[7])), per_triangle(median(samples[8]) / frames), part_update * 1e6,
+            part_update / build, cold_part * 1e6, bytes,
             std::max(bytes_per_triangle(table), bytes_per_triangle(part_table))});
   const std::string& name = scene.joint.name;
   add_goal({"radial table, build", name, Bound::at_most, 60, "ns per triangle"}, per_triangle(build), report);

@@ -68,7 +68,9 @@ class DirectionTable {
   void follow_all(const Points& before);
   void follow_on_paper_map();
   void keep_rejection_parts(const Points& before);
-  std::optional<Drift> move_corners();
+  double move_corners();
+  void drift_on(std::span<const Index> moved, std::span<const Index> triangles);
+  void settle_drift(double furthest_mm);
   void measure_forms() const;
   void follow_some(std::span<const Index> moved);
   const RejectionParts& rejection_parts() const;

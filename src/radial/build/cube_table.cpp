@@ -44,9 +44,12 @@ void bin_all(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& plac
   table.has_clipped = binning.has_clipped();
 }
 
-void measure(const TriMesh& mesh, TriangleForms& forms) {
+void place_corners(const TriMesh& mesh, TriangleForms& forms) {
   forms.corner.resize(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) forms.corner[i] = mesh.vertices[i];
+}
+
+void measure(const TriMesh& mesh, TriangleForms& forms) {
   forms.scale = scale_of(forms.corner);
   forms.edge_functions.resize(mesh.triangles.size());
   forms.uncertain.clear();
@@ -66,6 +69,7 @@ void build_rows(const TriMesh& mesh, const CubeMap& map, CubeTable& table) {
 
 void build(const TriMesh& mesh, const CubeMap& map, CubeTable& table) {
   build_rows(mesh, map, table);
+  place_corners(mesh, table.forms);
   measure(mesh, table.forms);
 }
 

@@ -51,7 +51,9 @@ void build(const TriMesh& mesh, const CubeMap& map, CubeTable& table);
 void build_rows(const TriMesh& mesh, const CubeMap& map, CubeTable& table);
 /// rows and 8-DOPs of all triangles, for vertices anywhere between their places;
 void bin_all(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed, CubeTable& table);
-/// where vertices are, the scale of their radii, and the forms of all triangles.
+/// where vertices are;
+void place_corners(const TriMesh& mesh, TriangleForms& forms);
+/// the scale of their radii, and the forms of all triangles. Others may read the corners meanwhile.
 void measure(const TriMesh& mesh, TriangleForms& forms);
 
 }  // namespace condyle::radial

@@ -169,6 +169,22 @@ std::vector<Index> left_slack_among(const TriMesh& mesh, const CubeTable& table,
   return left_slack;
 }
 
+/// See the header; adds cells that change to `touched`.
+bool follow_rows(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
+                 std::span<const Index> triangles, CubeTable& table, CellRadii* radii, CellSet& touched) {
+  for (const Index v : moved) table.forms.corner[v] = mesh.vertices[v];
+  bool has_changed = table.has_clipped;
+  if (!table.has_clipped) {
+    const std::vector<Index> left_slack = left_slack_among(mesh, table, moved);
+    has_changed = !left_slack.empty();
+    if (has_changed) {
+      bin_again(mesh, map, left_slack, triangles_at(mesh, left_slack, triangles), table, radii, touched);
+    }
+  }
+  if (table.has_clipped) build_rows(mesh, map, table);
+  return has_changed;
+}
+
 /// Which triangles of a binning are in each of its cells, see ChangedTriangles.
 struct EntriesByCell {
   std::vector<std::uint32_t> first;
@@ -256,18 +272,19 @@ bool follow_rows(const TriMesh& mesh, const CubeMap& map, CubeTable& table) {
   return !left_slack.empty();
 }
 
+bool follow_rows(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
+                 std::span<const Index> triangles, CubeTable& table) {
+  CellSet touched(map.cell_count());
+  return follow_rows(mesh, map, moved, triangles, table, nullptr, touched);
+}
+
 ChangedRadii follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
                              std::span<const Index> triangles, CubeTable& table, CellRadii* radii) {
-  for (const Index v : moved) table.forms.corner[v] = mesh.vertices[v];
   CellSet touched(map.cell_count());
-  if (!table.has_clipped) {
-    const std::vector<Index> left_slack = left_slack_among(mesh, table, moved);
-    if (!left_slack.empty()) {
-      bin_again(mesh, map, left_slack, triangles_at(mesh, left_slack, triangles), table, radii, touched);
-    }
-  }
-  if (table.has_clipped) {
-    build(mesh, map, table);
+  follow_rows(mesh, map, moved, triangles, table, radii, touched);
+  const bool are_made_anew = table.slack.empty();
+  if (are_made_anew) {
+    measure(mesh, table.forms);
     if (radii != nullptr) find_radii(map, table, *radii);
     return {.may_be_all = true};
   }

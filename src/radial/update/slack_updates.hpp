@@ -18,7 +18,11 @@ void init_slack(const TriMesh& mesh, CubeTable& table);
 /// Linear: looking at all vertices, and binning the triangles at those that left their slack.
 bool follow_rows(const TriMesh& mesh, const CubeMap& map, CubeTable& table);
 
-/// The same for some vertices, with `triangles` all triangles at them. Radii, where they are given, are kept
+/// The same for some vertices, with `triangles` all triangles at them; moves their corners too.
+bool follow_rows(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
+                 std::span<const Index> triangles, CubeTable& table);
+
+/// The same, and measures the forms of these triangles. Radii, where they are given, are kept
 /// current: those of the cells that these triangles are in are found. Costs what these triangles and the rows
 /// they are in do.
 ChangedRadii follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,

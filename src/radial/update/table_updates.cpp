@@ -71,7 +71,13 @@ void DirectionTable::follow_all(const Points& before) {
   }
   forms_measured_.make_out_of_date();
   measured_on_demand_ = 0;
-  earlier_.drift = move_corners();
+  settle_drift(move_corners());
+}
+
+/// What the earlier rejection parts are good for, now that the furthest vertex is so far from where it was then.
+void DirectionTable::settle_drift(double furthest_mm) {
+  earlier_.drift =
+      drift_of(furthest_mm, std::sqrt(double{earlier_.parts.radii.least_squared}), cube()->cells_per_side());
   if (!earlier_.drift) {
     measure_forms();
     require_centre_off_surface();
@@ -95,19 +101,29 @@ void DirectionTable::keep_rejection_parts(const Points& before) {
   rejection_.make_out_of_date();
 }
 
+/// Some more vertices of a surface that has drifted have moved.
+void DirectionTable::drift_on(std::span<const Index> moved, std::span<const Index> triangles) {
+  if (follow_rows(mesh(), *cube(), moved, triangles, table_))
+    earlier_.parts.radii.nearest.assign(table_.entries.triangle.size(), 0);
+  forms_measured_.make_out_of_date();
+  double furthest = earlier_.drift->mm;
+  for (const Index v : moved)
+    furthest = std::max(furthest, (mesh().vertices[v] - earlier_.vertices[v]).norm());
+  settle_drift(furthest);
+}
+
 /// How far vertices have moved since the earlier rejection parts were made. A point of a triangle moves no further than its
 /// corners; a surface that keeps off the centre all the way winds as it did.
-std::optional<Drift> DirectionTable::move_corners() {
+double DirectionTable::move_corners() {
   const Points& now = mesh().vertices;
-  auto& corner = table_.forms.corner;
-  for (std::size_t i = 0; i < now.size(); ++i) corner[i] = now[i];
+  place_corners(mesh(), table_.forms);
+  const auto& corner = table_.forms.corner;
   const Points& then = earlier_.vertices;
-  if (then.size() == 0) return {};
+  if (then.size() == 0) return HUGE_VAL;
   double furthest_squared = 0;
   for (std::size_t i = 0; i < now.size(); ++i)
     furthest_squared = std::max(furthest_squared, (corner[i] - then[i]).squaredNorm());
-  return drift_of(std::sqrt(furthest_squared), std::sqrt(double{earlier_.parts.radii.least_squared}),
-                  cube()->cells_per_side());
+  return std::sqrt(furthest_squared);
 }
 
 void DirectionTable::update(std::span<const Index> moved, PointsView positions) {
@@ -134,16 +150,18 @@ void DirectionTable::update(std::span<const Index> moved, PointsView positions) 
 
 void DirectionTable::follow_some(std::span<const Index> moved) {
   if (!cube()) return follow_on_paper_map();
-  earlier_ = {};
-  measure_forms();
   if (triangles_at_.empty()) triangles_at_ = mesh::VertexTriangles(mesh());
   const std::vector<Index> triangles = triangles_at_.of(moved);
+  if (earlier_.drift && !rejection_.is_current()) return drift_on(moved, triangles);
+  earlier_.drift.reset();
+  earlier_.vertices = {};
   RejectionParts* parts = rejection_.current();
   const ChangedRadii changed =
       follow_vertices(mesh(), *cube(), moved, triangles, table_, parts ? &parts->radii : nullptr);
   for (const Index t : triangles) require_centre_off_triangle(t);
   find_winding_at_centre();
   if (!parts) return;
+  parts->scale = table_.forms.scale;
   if ((winding_at_centre_.value_or(0) > 0) != parts->radii.starts_at_centre) {
     rejection_.make_out_of_date();
   } else if (changed.may_be_all) {
