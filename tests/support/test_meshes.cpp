@@ -1,9 +1,6 @@
 #include "support/test_meshes.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -180,19 +177,6 @@ double farthest(const PointsView& a, const PointsView& b) {
   double largest = 0;
   for (std::size_t v = 0; v < a.size(); ++v) largest = std::max(largest, (a[v] - b[v]).norm());
   return largest;
-}
-
-void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b, std::string_view where) {
-  ASSERT_EQ(a.size(), b.size()) << where;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(a[i]), std::bit_cast<std::uint64_t>(b[i])) << where << ", " << i;
-}
-
-void expect_same_bits(const TriMesh& a, const TriMesh& b, std::string_view where) {
-  expect_same_bits(a.vertices.x, b.vertices.x, where);
-  expect_same_bits(a.vertices.y, b.vertices.y, where);
-  expect_same_bits(a.vertices.z, b.vertices.z, where);
-  EXPECT_EQ(a.triangles, b.triangles) << where;
 }
 
 TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh) {
