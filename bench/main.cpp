@@ -37,7 +37,7 @@ struct JointQuestion {
   std::vector<std::string_view> scenes, quick_scenes;
 };
 
-const std::array<JointQuestion, 9> joint_questions = {{
+const std::array<JointQuestion, 11> joint_questions = {{
     {"beside_others", ask_beside_others, {"hip_vhf_right"}, {"sample_1"}},
     {"threads", ask_threads, {"hip_vhf_right"}, {"sample_1"}},
     {"first_contact", ask_first_contact, {"sample_1", "sample_2", "sample_3", "sample_4"}, {"sample_1"}},
@@ -53,6 +53,11 @@ const std::array<JointQuestion, 9> joint_questions = {{
       "libhip_cartilage_nogap", "sample_8"},
      {"sample_1"}},
     {"ring_table", ask_ring_table, {"libhip_1", "libhip_2", "libhip_3", "libhip_4"}, {"sample_1"}},
+    {"direction_maps", ask_direction_maps, {"sample_1", "sample_3", "sample_8"}, {"sample_1"}},
+    {"tetrahedra",
+     ask_tetrahedra,
+     {"sample_1", "sample_2", "sample_3", "sample_4", "sample_5", "sample_6", "sample_7", "sample_8"},
+     {"sample_1"}},
     {"deforming", ask_deforming, {"hip_vhf_right", "libhip_cartilage_nogap"}, {"sample_1"}},
 }};
 

@@ -37,6 +37,12 @@ void ask_inside_limits(const Scene& scene, Effort effort, Report& report);
 /// Costs of the ring table: building it, a pose, and all angles at once.
 void ask_ring_table(const Scene& scene, Effort effort, Report& report);
 
+/// Maps from directions to cells with one way of binning: cost of the map, length of lists, total.
+void ask_direction_maps(const Scene& scene, Effort effort, Report& report);
+
+/// How many tetrahedra fill the bodies, by the rule of the rows that hash them; nothing where CGAL is absent.
+void ask_tetrahedra(const Scene& scene, Effort effort, Report& report);
+
 /// A fixed body that deforms in each step: contacts that follow it, made anew, and the trees of others refitted.
 void ask_deforming(const Scene& scene, Effort effort, Report& report);
 
