@@ -316,7 +316,7 @@ struct Grid {
 
   Pose at(std::size_t point, Angle turn) const {
     return condyle::pose_at(arena.scene.joint.coordinates(),
-                            condyle::motion::turned_by(grid.start_of(point), grid.vary, turn));
+                            condyle::motion::turned_by(grid.start_of(point).angles, grid.vary.angle(), turn));
   }
 
   /// A point is wrong if it says free, or contact, at an angle at which exact predicates say the contrary, further from

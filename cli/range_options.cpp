@@ -12,13 +12,6 @@
 namespace condyle::cli {
 namespace {
 
-/// The angle that is neither.
-JointAngle third_angle(JointAngle a, JointAngle b) {
-  for (const JointAngle angle : all_joint_angles)
-    if (angle != a && angle != b) return angle;
-  return JointAngle::internal_rotation;
-}
-
 /// "count", or a margin in mm.
 motion::BearingOptions parse_bearing(const std::string& text) {
   motion::BearingOptions bearing;
@@ -44,21 +37,25 @@ std::optional<Vec3> translation_of(const std::string& text, const Joint& joint) 
 }  // namespace
 
 CLI::Option* add_map(CLI::App& command, RangeArguments& given) {
-  auto* map = command
-                  .add_option("--map", given.map,
-                              "Compute limits over a grid of two held angles, in degrees, such as "
-                              "flexion=-20:120:1 adduction=-40:30:1. The first one runs to the right")
-                  ->option_text("ANGLE=FIRST:LAST:STEP ANGLE=FIRST:LAST:STEP")
-                  // One is refused below, and a file that was taken for the second one: with words that help.
-                  ->expected(1, 2)
-                  ->check(
-                      [](const std::string& axis) {
-                        return axis.find('=') == axis.npos ? "'" + axis + "' is no axis: " + map_needs
-                                                           : std::string();
-                      },
-                      "");
-  command.add_option("--vary", given.vary, "With --map: the angle that turns over the grid")
-      ->option_text("ANGLE (the third one)");
+  auto* map =
+      command
+          .add_option("--map", given.map,
+                      "Compute limits over a grid of two held angles, in degrees, such as "
+                      "flexion=-20:120:1 adduction=-40:30:1, or of x, y or z of a free joint, in mm. The "
+                      "first one runs to the right. One more, such as flexion=30, is held there")
+          ->option_text("AXIS=FIRST:LAST:STEP AXIS=FIRST:LAST:STEP")
+          // One is refused below, and a file that was taken for the second one: with words that help.
+          ->expected(1, 4)
+          ->check(
+              [](const std::string& axis) {
+                return axis.find('=') == axis.npos ? "'" + axis + "' is no axis: " + map_needs
+                                                   : std::string();
+              },
+              "");
+  command
+      .add_option("--vary", given.vary,
+                  "With --map: the angle that turns over the grid, or the translation x, y or z")
+      ->option_text("AXIS (the third angle)");
   return map;
 }
 
@@ -144,11 +141,7 @@ std::optional<motion::MapGrid> grid_of(const RangeArguments& given, JointKind ki
     return std::nullopt;
   }
   if (given.map.size() < 2) throw UsageError("--map: only " + given.map[0] + " is given: " + map_needs);
-  motion::MapGrid grid;
-  grid.column = io::parse_grid_axis(given.map[0], anatomy);
-  grid.row = io::parse_grid_axis(given.map[1], anatomy);
-  grid.vary = given.vary.empty() ? third_angle(grid.column.angle, grid.row.angle)
-                                 : io::joint_angle_named(given.vary, anatomy);
+  motion::MapGrid grid = io::parse_grid(given.map, given.vary, anatomy);
   motion::check_grid(grid, kind);
   return grid;
 }

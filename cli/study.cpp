@@ -50,7 +50,8 @@ io::StudyOptions study_options(const StudyArguments& given) {
   options.bearing = range.bearing;
   options.reference_contact = range.reference_contact;
   if (given.leaves_out_reference_contacts) options.leave_out_reference_contacts.emplace();
-  options.map = grid_of(range, JointKind::ball, options.anatomy);
+  options.map = grid_of(range, JointKind::free, options.anatomy);
+  if (options.map && options.map->translates()) throw UsageError("--map: a study has maps of angles only");
   options.bands = band_of(range);
   if (!given.depth.empty()) options.depth_at = io::study_pose(given.depth, options.anatomy);
   options.measures = given.measures;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -171,12 +172,18 @@ struct FreeAngles {
 [[nodiscard]] FreeAngles free_turns(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F,
                                     const Pose& X_FM = Pose::Identity());
 
+/// How far a slide may go from its start, below 0 and above it.
+struct SlideRange {
+  double negative_mm = -std::numeric_limits<double>::infinity();
+  double positive_mm = std::numeric_limits<double>::infinity();
+};
+
 /// One end of a free slide.
 struct SlideEnd {
   std::optional<double> at_mm = {};  ///< along the direction, from the start; empty if nothing ends it
   /// Contact is at `at_mm` or beyond it by at most this; never before.
   double error_bound_mm = 0;
-  /// The two faces that meet there, and where.
+  /// The two faces that meet there, and where; empty at the end of a range.
   std::optional<ContactWitness> contact = {};
 };
 

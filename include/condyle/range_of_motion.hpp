@@ -214,6 +214,12 @@ class RangeOfMotion {
   [[nodiscard]] FreeAngles free_angles(JointAngle vary, const JointAngles& start,
                                        const RotationRange& range) const;
 
+  /// All positions of the mobile body along a direction of F, of any length but zero, that are free within the range about a pose;
+  /// guarantee as of motion::free_slides. Bearing contact ends a slide, whatever the rule for motions: a head does not slide into its
+  /// socket. Soft meshes and ligaments end none. Linear in both meshes. May be called from any thread.
+  [[nodiscard]] FreeSlides free_slides(const Vec3& direction_F, const Pose& X_FM,
+                                       const SlideRange& range) const;
+
   /// The least rotation that brings one angle to an end that contact or a ligament makes, within half a turn; empty if there is none. At a
   /// start that is not free it says so, turned by 0. Another flexion than the last ones costs some microseconds per fixed triangle. Throws
   /// MeshError as limit().
@@ -227,6 +233,7 @@ class RangeOfMotion {
 
   [[nodiscard]] JointKind kind() const noexcept;
   [[nodiscard]] CoordinateSystem coordinates() const noexcept;
+  [[nodiscard]] TranslationFrame translation_frame() const noexcept;
   /// The bearing surface, or why there is none and everything counts.
   [[nodiscard]] const BearingFinding& bearing() const noexcept;
   [[nodiscard]] BearingRule bearing_rule() const noexcept;

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
 #include <limits>
 
 #include "answer/limit_facts.hpp"
@@ -18,29 +19,35 @@
 namespace condyle::python {
 namespace {
 
+/// The three angles, then x, y and z.
+motion::MapCoordinate coordinate_numbered(std::size_t number) {
+  if (number < 3) return angle_numbered(number);
+  return motion::MapCoordinate::translation(static_cast<int>(number) - 3);
+}
+
 motion::GridAxis axis_in(const py::tuple& given) {
-  return {angle_numbered(given[0].cast<std::size_t>()), given[1].cast<double>(), given[2].cast<double>(),
+  return {coordinate_numbered(given[0].cast<std::size_t>()), given[1].cast<double>(), given[2].cast<double>(),
           given[3].cast<double>()};
 }
 
 py::array values_of(const motion::GridAxis& axis) {
   std::vector<double> values(axis.count());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = axis.value_deg(i);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = axis.value(i);
   return array_of(std::move(values));
 }
 
-/// One end of a rotation at every point.
+/// One end of a rotation, or of a slide, at every point.
 struct Ends {
-  std::vector<double> turned_deg, error_bound_deg, bearing_contact_deg;
+  std::vector<double> moved, error_bound, bearing_contact;
   std::vector<std::int8_t> reason, kind;
   std::vector<std::int32_t> ligament;
   Points fixed_point;
 
-  void add(const motion::Limit& limit, const io::AnswerFrame& frame) {
+  void add(const motion::MapEnd& limit, const io::AnswerFrame& frame) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    turned_deg.push_back(limit.turned.degrees());
-    error_bound_deg.push_back(limit.error_bound.degrees());
-    bearing_contact_deg.push_back(limit.bearing_contact ? limit.bearing_contact->turned.degrees() : none);
+    moved.push_back(std::abs(limit.from_start));
+    error_bound.push_back(limit.error_bound);
+    bearing_contact.push_back(limit.bearing_contact.value_or(none));
     reason.push_back(static_cast<std::int8_t>(limit.reason));
     kind.push_back(static_cast<std::int8_t>(limit.kind()));
     ligament.push_back(limit.ligament ? static_cast<std::int32_t>(*limit.ligament) : -1);
@@ -50,11 +57,11 @@ struct Ends {
 
   py::dict dict() && {
     py::dict dict;
-    dict["turned_deg"] = array_of(std::move(turned_deg));
+    dict["moved"] = array_of(std::move(moved));
     dict["reason"] = array_of(std::move(reason));
     dict["kind"] = array_of(std::move(kind));
-    dict["error_bound_deg"] = array_of(std::move(error_bound_deg));
-    dict["bearing_contact_deg"] = array_of(std::move(bearing_contact_deg));
+    dict["error_bound"] = array_of(std::move(error_bound));
+    dict["bearing_contact"] = array_of(std::move(bearing_contact));
     dict["fixed_point"] = array_of(fixed_point);
     dict["ligament"] = array_of(std::move(ligament));
     return dict;
@@ -64,38 +71,41 @@ struct Ends {
 py::dict dict_of_map(const motion::MotionMap& map, const io::AnswerFrame& frame) {
   Ends negative, positive;
   std::vector<std::int64_t> offset{0};
-  std::vector<double> low_deg, high_deg;
-  for (const motion::FreeAngles& point : map.points) {
-    negative.add(point.from_start.negative, frame);
-    positive.add(point.from_start.positive, frame);
-    for (const motion::FreeInterval& interval : point.intervals) {
-      low_deg.push_back(interval.low.degrees());
-      high_deg.push_back(interval.high.degrees());
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < map.grid.size(); ++i) {
+    const motion::MapPoint point = map.point(i);
+    negative.add(point.negative, frame);
+    positive.add(point.positive, frame);
+    for (const motion::MapInterval& interval : point.intervals) {
+      low.push_back(interval.low.from_start);
+      high.push_back(interval.high.from_start);
     }
-    offset.push_back(static_cast<std::int64_t>(low_deg.size()));
+    offset.push_back(static_cast<std::int64_t>(low.size()));
   }
   const motion::FreeVolume volume = motion::free_volume(map);
   py::dict dict;
-  dict["row_deg"] = values_of(map.grid.row);
-  dict["column_deg"] = values_of(map.grid.column);
+  dict["row_values"] = values_of(map.grid.row);
+  dict["column_values"] = values_of(map.grid.column);
   dict["negative"] = std::move(negative).dict();
   dict["positive"] = std::move(positive).dict();
   dict["offset"] = array_of(std::move(offset));
-  dict["low_deg"] = array_of(std::move(low_deg));
-  dict["high_deg"] = array_of(std::move(high_deg));
+  dict["low"] = array_of(std::move(low));
+  dict["high"] = array_of(std::move(high));
   dict["free_volume_deg3"] = volume.plain_deg3;
   dict["weighted_free_volume_deg3"] = volume.weighted_deg3;
   dict["row_area_deg2"] = array_of(std::vector<double>(volume.row_area_deg2));
+  dict["held_translation_mm"] =
+      std::vector<double>(map.grid.held.translation_mm.begin(), map.grid.held.translation_mm.end());
   return dict;
 }
 
 py::dict map_of(const RangeHandle& handle, const py::tuple& row, const py::tuple& column, std::size_t vary,
-                double start_deg, double negative_deg, double positive_deg, const py::object& progress) {
+                double start_deg, const py::object& held_deg, const py::object& progress) {
   const motion::MapGrid grid{.row = axis_in(row),
                              .column = axis_in(column),
-                             .vary = angle_numbered(vary),
+                             .vary = coordinate_numbered(vary),
                              .start = Angle::degrees(start_deg),
-                             .range = {Angle::degrees(negative_deg), Angle::degrees(positive_deg)}};
+                             .held = {.angles = angles_in(held_deg, "held_deg")}};
   const RangeAnswer found = further_answered(handle, {.map = grid}, progress);
   py::dict dict = dict_of_map(*found.map, io::frame_of(handle.result()));
   dict["notes"] = notes_of(found.notes);
@@ -107,7 +117,7 @@ motion::MapGrid grid_in(const py::tuple& given) {
   const auto axes = given[0].cast<py::tuple>();
   return {.row = axis_in(axes[0].cast<py::tuple>()),
           .column = axis_in(axes[1].cast<py::tuple>()),
-          .vary = angle_numbered(given[1].cast<std::size_t>())};
+          .vary = coordinate_numbered(given[1].cast<std::size_t>())};
 }
 
 py::dict write_limits(const RangeHandle& handle, const JointHandle& joint, const std::filesystem::path& path,

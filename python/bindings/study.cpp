@@ -56,16 +56,12 @@ io::StudyFollowLoad follow_load_in(const py::dict& given) {
 }
 
 motion::MapGrid grid_in(const py::tuple& given, Anatomy anatomy) {
-  motion::MapGrid grid;
-  grid.column = io::parse_grid_axis(given[0].cast<std::string>(), anatomy);
-  grid.row = io::parse_grid_axis(given[1].cast<std::string>(), anatomy);
-  if (const py::object vary = given[2]; !vary.is_none()) {
-    grid.vary = io::joint_angle_named(vary.cast<std::string>(), anatomy);
-  } else {
-    for (const JointAngle angle : all_joint_angles)
-      if (angle != grid.column.angle && angle != grid.row.angle) grid.vary = angle;
-  }
-  motion::check_grid(grid, JointKind::ball);
+  const py::object vary = given[2];
+  motion::MapGrid grid =
+      io::parse_grid(std::array{given[0].cast<std::string>(), given[1].cast<std::string>()},
+                     vary.is_none() ? std::string() : vary.cast<std::string>(), anatomy);
+  motion::check_grid(grid, JointKind::free);
+  if (grid.translates()) throw UsageError("map: a study has maps of angles only");
   return grid;
 }
 

@@ -17,7 +17,7 @@ from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import LimitBand, LimitBands
 from ._limits import FreeAngles, HasLimits, Limit, MotionLimit, end_text, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
-from ._motion_map import MotionMap, map_of
+from ._motion_map import TRANSLATIONS, MotionMap, map_of
 from ._native import RangeOfMotion as NativeRange
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
@@ -179,10 +179,13 @@ class RangeOfMotion(HasLimits, Unchanging):
         return self.free_angles(vary, start_deg).contact_set_deg
 
     def map(self, column: Mapping[str, Sequence[float]], row: Mapping[str, Sequence[float]], *,
-            vary: Optional[str] = None, start_deg: float = 0, progress: Progress = None) -> MotionMap:
-        """Free values of the third angle over a grid of the two others, on all threads.
+            vary: Optional[str] = None, start_deg: float = 0, held_deg: Mapping[str, float] = {},
+            progress: Progress = None) -> MotionMap:
+        """Free values of a third coordinate over a grid of two others, on all threads.
 
-        `column` and `row` are each one angle with first, last and step in degrees: `{"flexion": (0, 120, 10)}`. Exact
+        `column` and `row` are each one angle with first, last and step in degrees: `{"flexion": (0, 120, 10)}`, or of a free joint
+        one translation in mm: `{"x": (-1, 1, 0.5)}`; `vary` is the third angle by default, and may be a translation, which goes up to
+        50 mm from where the joint is held. `held_deg` has angles that the map neither holds on an axis nor varies. Exact
         at every point; a :class:`JointRemark` names an axis that ends before its last value. Ctrl-C ends it within points
         begun; `progress` is called with (done, total).
 
@@ -196,11 +199,15 @@ class RangeOfMotion(HasLimits, Unchanging):
         """
         axes, which = self._grid(column, row, vary)
         start = number(start_deg, "start_deg")
-        found = _native.motion_map(self._native, *axes, which, start, -180.0, 180.0, progress_of(progress))
+        if which > 2 and start != 0:
+            raise UsageError("start_deg: is of an angle that varies")
+        found = _native.motion_map(self._native, *axes, which, start, self._motions.start(held_deg), progress_of(progress))
         reported(found.pop("notes"))
-        row_name, column_name, vary_name = (self._motions.angles[i][0] for i in (axes[0][0], axes[1][0], which))
+        names = (*(pair[0] for pair in self._motions.angles), *TRANSLATIONS)
+        places = (axes[0][0], axes[1][0], which)
         ligaments = tuple(each.name for each in self._joint.ligaments)
-        return map_of(found, row_name, column_name, vary_name, start, ligaments)
+        return map_of(found, tuple(names[i] for i in places), tuple("deg" if i < 3 else "mm" for i in places), start if which < 3 else
+                      found["held_translation_mm"][which - 3], ligaments)
 
     def write_limits(self, path: Path, *, limits: LimitSource = "bony", column: Optional[Mapping[str, Sequence[float]]] = None,
                      row: Optional[Mapping[str, Sequence[float]]] = None, vary: Optional[str] = None, stop: StopForce = "limit",
@@ -231,16 +238,21 @@ class RangeOfMotion(HasLimits, Unchanging):
 
     def _grid(self, column: Mapping[str, Sequence[float]], row: Mapping[str, Sequence[float]], vary: Optional[str]
               ) -> tuple[tuple[tuple[int, float, float, float], tuple[int, float, float, float]], int]:
-        """Rows, columns, and the angle that varies."""
+        """Rows, columns, and the coordinate that varies: angles from 0, translations from 3."""
         axes = self._grid_axis(row, "row"), self._grid_axis(column, "column")
         rest = [i for i in range(3) if i not in (axes[0][0], axes[1][0])]
-        return axes, rest[0] if vary is None else self._motions.positive_angle(vary, "vary")
+        if vary is None and len(rest) > 1:
+            raise UsageError("vary: a map over a translation needs the angle or the translation that varies")
+        return axes, rest[0] if vary is None else self._coordinate(vary, "vary")
+
+    def _coordinate(self, name: str, what: str) -> int:
+        return 3 + TRANSLATIONS.index(name) if name in TRANSLATIONS else self._motions.positive_angle(name, what)
 
     def _grid_axis(self, given: Mapping[str, Sequence[float]], what: str) -> tuple[int, float, float, float]:
         if not isinstance(given, Mapping) or len(given) != 1:
             raise UsageError(f'{what}: one angle with first, last and step is needed: {{"flexion": (0, 120, 10)}}')
         (name, values), = given.items()
-        which = self._motions.positive_angle(name, what)
+        which = self._coordinate(name, what)
         if not isinstance(values, (tuple, list)) or len(values) not in (2, 3):
             raise UsageError(f"{what}: first, last and step are needed")
         first, last, step = (number(value, what) for value in (*values, 1)[:3])

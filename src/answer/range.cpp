@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "answer/closed_limits.hpp"
 #include "answer/exact_limits.hpp"
 #include "answer/followed_range.hpp"
@@ -28,9 +30,25 @@ void note_axes(const motion::MapGrid& grid, Anatomy anatomy, std::vector<RangeNo
       notes.push_back(
           {RangeNoteCode::last_value_left_out,
            core::formatted(
-               "the map goes up to %s %.10g, not %.10g: the step of %.10g degrees leads to no point there",
-               std::string(name_of(axis->angle, anatomy)).c_str(), axis->value_deg(axis->count() - 1),
-               axis->last_deg, axis->step_deg)});
+               "the map goes up to %s %.10g, not %.10g: the step of %.10g %s leads to no point there",
+               std::string(name_of(axis->coordinate, anatomy)).c_str(), axis->value(axis->count() - 1),
+               axis->last, axis->step, axis->coordinate.is_angle() ? "degrees" : "mm")});
+}
+
+bool has_ends_by_ligaments(const Joint& joint) {
+  return std::any_of(joint.ligaments.begin(), joint.ligaments.end(),
+                     [](const Ligament& ligament) { return ligament.ends_at_strain.has_value(); });
+}
+
+/// What holds a joint together that a map translates.
+void note_translations(const motion::MapGrid& grid, const Joint& joint, std::vector<RangeNote>& notes) {
+  if (!grid.translates()) return;
+  std::string text =
+      "the map takes the joint to translations at which no surfaces meet, and in this model nothing else "
+      "holds "
+      "it together: no capsule, no muscle, no ";
+  text += has_ends_by_ligaments(joint) ? "ligament but those of the joint file" : "ligament";
+  notes.push_back({RangeNoteCode::nothing_holds_joint, std::move(text)});
 }
 
 /// Zones, map and bands, as far as they are requested; false if stopped.
@@ -46,9 +64,12 @@ bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const m
     }
   }
   if (request.map) {
-    answer.map = motion::motion_map(*request.map, *answer.range, control);
+    motion::MapGrid grid = *request.map;
+    grid.held.translation_mm = answer.held_translation_mm.value_or(Vec3::Zero());
+    answer.map = motion::motion_map(grid, *answer.range, control);
     if (!answer.map) return false;
-    note_axes(*request.map, answer.joint.anatomy, answer.notes);
+    note_axes(grid, answer.joint.anatomy, answer.notes);
+    note_translations(grid, answer.joint, answer.notes);
   }
   if (request.bands) {
     auto bands = motion::limit_bands(answer.joint, request.motions, again, answer.band_options, control);
@@ -66,11 +87,19 @@ bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const m
 
 }  // namespace
 
+void check_map(const motion::MapGrid& grid, const Joint& joint) {
+  motion::check_grid(grid, joint.kind);
+  if (!grid.vary.is_angle() && has_ends_by_ligaments(joint))
+    throw UsageError(
+        "map: ligaments end motions of this joint, and how far they let it translate is not computed: "
+        "vary an angle, or leave their ends out of the joint file");
+}
+
 void check_range_request(const Case& of, const RangeRequest& request) {
   const Joint& joint = of.joint;
   if (!request.follow) (void)held_translation(of, request.translation_mm);
   for (const motion::Motion& motion : request.motions) motion::check_motion(motion, joint.kind);
-  if (request.map) motion::check_grid(*request.map, joint.kind);
+  if (request.map) check_map(*request.map, joint);
   if (request.allowed_depth && (request.map || request.bands || request.zones_past))
     throw UsageError("an allowed depth gives limits only: no map, bands or zones");
   if (!request.follow) return;
@@ -103,7 +132,7 @@ std::optional<RangeAnswer> answer_range(const Case& of, const RangeRequest& requ
 std::optional<RangeAnswer> further_answer(const Case& of, const RangeAnswer& kept,
                                           const RangeRequest& request, const Control& control) {
   for (const motion::Motion& motion : request.motions) motion::check_motion(motion, of.joint.kind);
-  if (request.map) motion::check_grid(*request.map, of.joint.kind);
+  if (request.map) check_map(*request.map, of.joint);
   RangeAnswer answer{.joint = kept.joint,
                      .held_translation_mm = kept.held_translation_mm,
                      .bearing = kept.bearing,

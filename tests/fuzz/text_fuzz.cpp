@@ -45,14 +45,15 @@ std::string fault_of_given(std::string_view text, JointKind kind, Anatomy anatom
 std::string fault_of_axis(std::string_view text, JointKind kind, Anatomy anatomy) {
   const motion::GridAxis axis = io::parse_grid_axis(text, anatomy);
   const motion::GridAxis again = io::parse_grid_axis(io::to_text(axis, anatomy), anatomy);
-  if (again.angle != axis.angle || again.first_deg != axis.first_deg || again.last_deg != axis.last_deg)
+  if (again.coordinate != axis.coordinate || again.first != axis.first || again.last != axis.last)
     return "an axis that does not read back";
   motion::MapGrid grid;
   grid.row = axis;
-  grid.column.angle = axis.angle == JointAngle::adduction ? JointAngle::flexion : JointAngle::adduction;
+  grid.column.coordinate =
+      axis.coordinate == JointAngle::adduction ? JointAngle::flexion : JointAngle::adduction;
   grid.vary =
-      axis.angle == JointAngle::internal_rotation ? JointAngle::flexion : JointAngle::internal_rotation;
-  if (grid.vary == grid.column.angle) grid.vary = JointAngle::adduction;
+      axis.coordinate == JointAngle::internal_rotation ? JointAngle::flexion : JointAngle::internal_rotation;
+  if (grid.vary == grid.column.coordinate) grid.vary = JointAngle::adduction;
   motion::check_grid(grid, kind);
   return grid.size() <= motion::most_map_points ? "" : "a map of too many points";
 }

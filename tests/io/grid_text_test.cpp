@@ -9,10 +9,10 @@ namespace {
 
 void expect_axis(std::string_view text, JointAngle angle, double first, double last, double step) {
   const motion::GridAxis axis = io::parse_grid_axis(text, Anatomy::hip);
-  EXPECT_EQ(axis.angle, angle);
-  EXPECT_EQ(axis.first_deg, first);
-  EXPECT_EQ(axis.last_deg, last);
-  EXPECT_EQ(axis.step_deg, step);
+  EXPECT_EQ(axis.coordinate, angle);
+  EXPECT_EQ(axis.first, first);
+  EXPECT_EQ(axis.last, last);
+  EXPECT_EQ(axis.step, step);
 }
 
 TEST(GridText, ReadsFirstLastAndStep) {
@@ -25,9 +25,9 @@ TEST(GridText, ReadsFirstLastAndStep) {
 TEST(GridText, IsReadBackToTheLastBit) {
   const motion::GridAxis axis{JointAngle::adduction, 0.1, 1.0 / 3, 1e-7};
   const motion::GridAxis again = io::parse_grid_axis(io::to_text(axis, Anatomy::hip), Anatomy::hip);
-  EXPECT_EQ(again.first_deg, axis.first_deg);
-  EXPECT_EQ(again.last_deg, axis.last_deg);
-  EXPECT_EQ(again.step_deg, axis.step_deg);
+  EXPECT_EQ(again.first, axis.first);
+  EXPECT_EQ(again.last, axis.last);
+  EXPECT_EQ(again.step, axis.step);
 }
 
 TEST(GridText, RefusesWhatIsNotAnAxis) {

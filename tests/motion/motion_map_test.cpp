@@ -88,12 +88,12 @@ TEST(MotionMap, OfARealHipHasWhatIsFreeBesideAStartInContactAndIslands) {
   std::size_t free_elsewhere = 0, islands = 0;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     const FreeAngles& point = map.points[i];
-    const JointAngles start = grid.start_of(i);
+    const JointAngles start = grid.start_of(i).angles;
     EXPECT_EQ(impinges(start), !point.from_start.free_at_start()) << i;
     free_elsewhere += !point.from_start.free_at_start() && !point.intervals.empty();
     islands += point.intervals.size() > 1;
     for (const FreeInterval& free : point.intervals)
-      EXPECT_FALSE(impinges(turned_by(start, grid.vary, (free.low + free.high) * 0.5))) << i;
+      EXPECT_FALSE(impinges(turned_by(start, grid.vary.angle(), (free.low + free.high) * 0.5))) << i;
   }
   EXPECT_GT(free_elsewhere, 0u);
   EXPECT_GT(islands, 0u);
@@ -224,10 +224,10 @@ TEST(MotionMap, RefusesGridsThatMakeNoSenseBeforeAnyWork) {
     }
   };
   refused([](MapGrid& g) { g.vary = JointAngle::flexion; }, "named twice");
-  refused([](MapGrid& g) { g.column.angle = JointAngle::flexion; }, "named twice");
-  refused([](MapGrid& g) { g.row.step_deg = 0; }, "step");
-  refused([](MapGrid& g) { g.row.last_deg = -21; }, "ends before");
-  refused([](MapGrid& g) { g.row.first_deg = std::nan(""); }, "finite");
+  refused([](MapGrid& g) { g.column.coordinate = JointAngle::flexion; }, "named twice");
+  refused([](MapGrid& g) { g.row.step = 0; }, "step");
+  refused([](MapGrid& g) { g.row.last = -21; }, "ends before");
+  refused([](MapGrid& g) { g.row.first = std::nan(""); }, "finite");
   refused([](MapGrid& g) { g.range = {Angle(), Angle()}; }, "empty");
   refused([](MapGrid& g) { g.range.positive = Angle::degrees(181); }, "half a turn");
   refused(
@@ -235,7 +235,8 @@ TEST(MotionMap, RefusesGridsThatMakeNoSenseBeforeAnyWork) {
         g.row = {JointAngle::flexion, 0, 99999, 1}, g.column = {JointAngle::adduction, 0, 9999, 1};
       },
       "1000000000");
-  refused([](MapGrid& g) { g.row.step_deg = 1e-300; }, "more than 10000000");
+  refused([](MapGrid& g) { g.row.step = 1e-300; }, "more than 10000000");
+  refused([](MapGrid& g) { g.vary = MapCoordinate::translation(0); }, "only a free joint translates");
   EXPECT_THROW(check_grid(small_grid(), JointKind::hinge), UsageError);
 }
 

@@ -4,9 +4,10 @@ import pickle
 
 import numpy as np
 import pytest
-from common import FREE, joint_file, json_of_command, refused, run_command, text_of
+from common import FREE, joint_file, json_of_command, refused, rows_of, run_command, text_of
 
 import condyle
+import condyle.plot
 from test_parts import PARTS
 
 def said_of(value):
@@ -138,6 +139,13 @@ def test_a_translation_that_is_held_and_one_that_follows(coarse_bones, tmp_path)
     assert held.zones(["flexion"])[0].limit.contact.fixed_point.tolist() == at.tolist()
     found = held.map({"adduction": (0, 1, 1)}, {"internal_rotation": (0, 1, 1)}, vary="flexion")
     assert found.positive.fixed_point[0, 0].tolist() == at.tolist()
+    free = held.map({"x": (-1, 1, 1)}, {"flexion": (0, 90, 45)}, vary="y", held_deg={"adduction": 5})
+    run_command("rom", tmp_path / "hip.toml", "--motion", "flexion", "--translation", "x=0.5 y=-0.25", "--map", "x=-1:1:1", "flexion=0:90:45", "adduction=5",
+                "--vary", "y", "--out", tmp_path / "map")
+    lines = rows_of(tmp_path / "map" / "map_intervals.csv")
+    assert [[float(line["y_low_mm"]), float(line["y_high_mm"])] for line in lines] == (free.start_mm + free.intervals_mm).tolist()
+    grid = condyle.plot.files.read_rom(tmp_path / "map")["grid"]
+    assert grid.units == ("mm", "deg", "mm") and np.array_equal(grid.upper_deg, free.upper_mm) and not hasattr(free, "upper_deg")
     X_FM = joint.pose(flexion_deg=held["flexion"].limit_deg, x_mm=0.5, y_mm=-0.25)
     np.testing.assert_allclose((X_FM @ [*held["flexion"].contact.mobile_point, 1])[:3], at, atol=1e-9)
     free = condyle.Joint(*coarse_bones, kind="free", reference_pose={"x": 0.5, "y": -0.25})

@@ -81,7 +81,9 @@ enum class RangeNoteCode : std::uint8_t {
   coarse_mesh,  ///< Triangles are so long that they cut off of head, neck or rim what moves limits by degrees.
   differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.
   last_value_left_out,  ///< No whole number of steps leads to the last value of a map's axis: it ends before.
-  limit_through_bone,   ///< A ligament runs straight through a body where it ends a motion.
+  map_not_drawn,        ///< A report's page leaves out a map over translations.
+  nothing_holds_joint,  ///< A map translates the joint, and in this model nothing holds its bodies together but what they meet.
+  limit_through_bone,  ///< A ligament runs straight through a body where it ends a motion.
 };
 
 /// As in files: "centre_moves_limits".
@@ -124,6 +126,10 @@ struct RangeAnswer {
 /// The translation that all motions of a free joint keep: the one requested, else that of its reference pose. Empty for joints
 /// that do not translate. Throws UsageError if one is requested of those, or if it would turn with the joint's axes.
 [[nodiscard]] std::optional<Vec3> held_translation(const Case& joint, const std::optional<Vec3>& requested);
+
+/// Throws UsageError as motion::check_grid(), and for a translation varied of a joint with ligaments that end motions: what they allow along it
+/// is not computed.
+void check_map(const motion::MapGrid& grid, const Joint& joint);
 
 /// Throws UsageError for what answer_range() would refuse before it computes anything.
 void check_range_request(const Case& joint, const RangeRequest& request);

@@ -274,25 +274,33 @@ def _read_grid(folder: Path, summary: Dict[str, Any], path: Path) -> MotionGrid:
     """The map of `rom.json`'s `map` and `map_intervals.csv`."""
     try:
         columns, rows = (_axis_values(f"{path}: map: {key}", summary[key]) for key in ("columns", "rows"))
-        column, row = ((str(summary[key]["angle"]), str(summary[key]["opposite"])) for key in ("columns", "rows"))
+        column, row = ((str(axis["translation" if _unit_of(axis) == "mm" else "angle"]), str(axis["opposite"]))
+                       for axis in (summary["columns"], summary["rows"]))
         varied = (str(summary["vary"]), str(summary["vary_opposite"]))
-        _check_number(f"{path}: map", summary, "start_deg")
-        start = float(summary["start_deg"])
+        unit = "mm" if "start_mm" in summary else "deg"
+        _check_number(f"{path}: map", summary, f"start_{unit}")
+        start = float(summary[f"start_{unit}"])
     except (KeyError, TypeError) as error:
         raise ReadError(f"{path}: map: no {error}") from None
     intervals = _read_intervals(folder / "map_intervals.csv", columns, rows)
-    return _grid_of(intervals, column, row, varied, columns, rows, start)
+    return _grid_of(intervals, column, row, varied, columns, rows, start)._replace(
+        units=(_unit_of(summary["columns"]), _unit_of(summary["rows"]), unit))
+
+
+def _unit_of(axis: Dict[str, Any]) -> str:
+    return "mm" if "translation" in axis else "deg"
 
 
 def _axis_values(where: str, axis: Dict[str, Any]) -> Array:
-    for key in ("count", "first_deg", "step_deg", "last_deg"):
+    first, step, last = (f"{key}_{_unit_of(axis)}" for key in ("first", "step", "last"))
+    for key in ("count", first, step, last):
         _check_number(where, axis, key)
     count = axis["count"]
     if not isinstance(count, int) or not 0 < count <= MOST_POINTS:
         raise ReadError(f"{where}: 'count' is not in 1 to {MOST_POINTS}")
-    values = axis["first_deg"] + axis["step_deg"] * np.arange(count)
+    values = axis[first] + axis[step] * np.arange(count)
     if count > 1:
-        values[-1] = axis["last_deg"]
+        values[-1] = axis[last]
     return np.asarray(values, dtype=np.float64)
 
 
@@ -318,7 +326,7 @@ def _read_intervals(path: Path, columns: Array, rows: Array) -> Dict[Tuple[int, 
 
 def _index(path: Path, line: int, name: str, values: Array, value: float) -> int:
     nearest = int(np.argmin(np.abs(values - value)))
-    if not abs(values[nearest] - value) <= 1e-6:  # degrees; NaN is refused too
+    if not abs(values[nearest] - value) <= 1e-6:  # degrees or mm; NaN is refused too
         raise ReadError(f"{path}: line {line}: column '{name}': {value:g} is not a value of the grid in rom.json")
     return nearest
 

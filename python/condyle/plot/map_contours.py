@@ -9,14 +9,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Patch, Rectangle
-from matplotlib.ticker import FuncFormatter, MultipleLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 from numpy.typing import NDArray
 
 from .._errors import UsageError
 from .._motion_map import MotionMap
 from . import style
 from .motion_grid import MotionGrid
-from .words import OPPOSITE, angle_axis, in_two_lines, number, of, scope_clause, spaced, step_of_ticks
+from .words import OPPOSITE, SYMBOLS, angle_axis, in_two_lines, number, of, scope_clause, spaced, step_of_ticks
 
 Array = NDArray[np.float64]
 MapLike = Union[MotionMap, MotionGrid, Mapping[str, object]]
@@ -41,29 +41,32 @@ def grid_of(result: MapLike) -> MotionGrid:
     grid = of(result, "grid")
     if isinstance(grid, MotionGrid):
         return grid
-    if all(hasattr(result, name) for name in ("column_deg", "row_deg", "free_at_start", "positive")):
+    if isinstance(result, MotionMap) or all(hasattr(result, name) for name in ("column_deg", "row_deg", "free_at_start", "positive")):
         return _of_motion_map(result)
     raise UsageError("no map of combined motion in this result")
 
 
 def _of_motion_map(result: Any) -> MotionGrid:
     """Where the start is not free, ends of the range and contact are not distinguished."""
-    column, row, varied = ((name, OPPOSITE.get(name, f"negative {name}"))
+    column, row, varied = ((name, OPPOSITE.get(name, f"negative_{name}"))
                            for name in (result.column, result.row, result.vary))
+    row_unit, column_unit, unit = getattr(result, "units", ("deg", "deg", "deg"))
+    columns, rows, start, low, high = (np.asarray(getattr(result, f"{name}_{of}")) for name, of in (
+        ("column", column_unit), ("row", row_unit), ("start", unit), ("lower", unit), ("upper", unit)))
     end_of_range = 1  # condyle.REASONS
     free = np.asarray(result.free_at_start)
     count = np.diff(np.asarray(result.offset)).reshape(free.shape)
     names = np.array(("", *result.ligaments))
     lower, upper = (np.where(free, names[np.asarray(end.ligament) + 1], "")
                     for end in (result.negative, result.positive))
-    return MotionGrid(column, row, varied, np.asarray(result.column_deg), np.asarray(result.row_deg),
-                      float(result.start_deg), np.asarray(result.lower_deg), np.asarray(result.upper_deg),
+    return MotionGrid(column, row, varied, columns, rows, float(start), low, high,
                       (np.asarray(result.negative.reason) == end_of_range) & free,
-                      (np.asarray(result.positive.reason) == end_of_range) & free, free, count, lower, upper)
+                      (np.asarray(result.positive.reason) == end_of_range) & free, free, count, lower, upper,
+                      (column_unit, row_unit, unit))
 
 
 def values_of(grid: MotionGrid, view: str) -> Array:
-    """Degrees from the start, (rows, columns); below 0 where the interval drawn does not reach the start, NaN where
+    """Degrees or mm from the start, (rows, columns); below 0 where the interval drawn does not reach the start, NaN where
     none is.
     """
     if view == "positive":
@@ -80,15 +83,19 @@ def quantity_of(grid: MotionGrid, view: str) -> str:
     positive, negative = (spaced(name) for name in grid.varied)
     if view != "free_range":
         return f"limit of {positive if view == 'positive' else negative}"
+    if grid.units[2] == "mm":
+        return f"free range of {positive}"
     first, last = positive.split(" "), negative.split(" ")
     if len(first) > 1 and first[1:] == last[1:]:
         return f"free range of {first[0]} and {negative}"
     return f"free range of {positive} and {negative}"
 
 
-def _levels(values: Array) -> Array:
+def _levels(values: Array, unit: str) -> Array:
     """Multiples of a round step, from below the lowest value to above the highest; no step below a degree."""
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    if unit == "mm":
+        return np.asarray(MaxNLocator(MOST_LEVELS, steps=[1, 2, 5, 10]).tick_values(low, high))
     step = step_of_ticks(max(high - low, 1.0), MOST_LEVELS)
     first = math.floor(low / step)
     last = max(math.ceil(high / step), first + 1)
@@ -158,7 +165,7 @@ def _angle_ticks(axis: Any, values: Array) -> None:
 
 def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] = None,
                levels: Optional[Sequence[float]] = None, colour_bar: bool = True, legend: bool = True) -> Axes:
-    """Draws how far one angle turns over two held ones, as filled contours with labels.
+    """Draws how far one angle turns, or one translation goes, over two held coordinates, as filled contours with labels.
 
     Points between those of the grid are interpolated linearly. Drawn is the free interval that holds the start, else
     the one nearest to it: its end is then on the other side of the start, and the limit below zero.
@@ -172,7 +179,7 @@ def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] =
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     levels
-        Contours in degrees, ascending, for maps that are to be compared; otherwise round ones that hold all values.
+        Contours in degrees or mm, ascending, for maps that are to be compared; otherwise round ones that hold all values.
     colour_bar, legend
         The scale at the right; what the hatchings mean, below.
 
@@ -188,7 +195,7 @@ def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] =
         raise UsageError("nothing to draw: no point of the map is free")
     if min(values.shape) < 2:
         return _curve(grid, values, view, ax)
-    chosen = _levels(values) if levels is None else np.asarray(levels, dtype=np.float64)
+    chosen = _levels(values, grid.units[2]) if levels is None else np.asarray(levels, dtype=np.float64)
     marks = _marks(grid, view)
     is_ours = ax is None
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 68 + style.rows_below(len(marks))) as ax:
@@ -207,14 +214,14 @@ def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] =
             ax.spines[side].set_visible(True)
         _angle_ticks(ax.xaxis, grid.columns_deg)
         _angle_ticks(ax.yaxis, grid.rows_deg)
-        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim()), scope_clause(result)))))
-        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim()))
+        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim(), SYMBOLS[grid.units[0]]), scope_clause(result)))))
+        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim(), SYMBOLS[grid.units[1]]))
         if colour_bar:
             bar = ax.figure.colorbar(filled, ax=ax, pad=0.02, aspect=28)
             bar.outline.set_linewidth(0.6)
             bar.formatter = FuncFormatter(lambda value, _: number(value))
             bar.update_ticks()
-            bar.set_label(in_two_lines(f"{quantity_of(grid, view)} (°)", 40))
+            bar.set_label(in_two_lines(f"{quantity_of(grid, view)} ({SYMBOLS[grid.units[2]]})", 40))
         if legend:
             style.legend_below(ax, is_ours, _handles(grid, [name for name, _ in marks]))
     return ax
@@ -258,7 +265,7 @@ def map_ends(result: MapLike, side: Literal["positive", "negative"] = "positive"
     Returns
     -------
     The axes. Cells lie around the points of the map, by gid `ligament NAME`, `contact` and `end_of_range`; hatched ones
-    have the gids of :func:`motion_map`. Lines are contours of the limit, in degrees from the start.
+    have the gids of :func:`motion_map`. Lines are contours of the limit, from the start.
     """
     grid = grid_of(result)
     values = values_of(grid, side)
@@ -290,17 +297,17 @@ def map_ends(result: MapLike, side: Literal["positive", "negative"] = "positive"
                                               gid=gid))
         for name, marked in marks:
             _hatch(ax, grid, marked, name)
-        lines = ax.contour(grid.columns_deg, grid.rows_deg, values, levels=_levels(values), colors="black",
+        lines = ax.contour(grid.columns_deg, grid.rows_deg, values, levels=_levels(values, grid.units[2]), colors="black",
                            linewidths=0.5, zorder=2)
         style.tidy(ax, ax.clabel(lines, fmt=lambda level: number(level), fontsize=style.smaller(1), inline=False))
         for edge in ("top", "right"):
             ax.spines[edge].set_visible(True)
         _angle_ticks(ax.xaxis, grid.columns_deg)
         _angle_ticks(ax.yaxis, grid.rows_deg)
-        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim()), scope_clause(result)))))
-        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim()))
+        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim(), SYMBOLS[grid.units[0]]), scope_clause(result)))))
+        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim(), SYMBOLS[grid.units[1]]))
         movement = spaced(grid.varied[side == "negative"])
-        ax.text(1.02, 0.5, in_two_lines(f"what ends {movement}; lines: after how far (°)", 40), transform=ax.transAxes,
+        ax.text(1.02, 0.5, in_two_lines(f"what ends {movement}; lines: after how far ({SYMBOLS[grid.units[2]]})", 40), transform=ax.transAxes,
                 rotation=90, va="center", ha="left", multialignment="center")
         if legend:
             style.legend_below(ax, is_ours, [
@@ -331,8 +338,9 @@ def _curve(grid: MotionGrid, values: Array, view: str, ax: Optional[Axes]) -> Ax
                     transform=ax.get_xaxis_transform(), label=HATCHES["nowhere"][2], gid="nowhere")
         _angle_ticks(ax.xaxis, held)
         ax.grid(axis="y")
-        ax.set_xlabel(angle_axis(*(grid.column if along_columns else grid.row), float(held[0]), float(held[-1])))
-        ax.set_ylabel(f"{quantity_of(grid, view)} (°)")
+        ax.set_xlabel(angle_axis(*(grid.column if along_columns else grid.row), float(held[0]), float(held[-1]),
+                                 SYMBOLS[grid.units[0 if along_columns else 1]]))
+        ax.set_ylabel(f"{quantity_of(grid, view)} ({SYMBOLS[grid.units[2]]})")
         if set(marks) - {"islands"}:
             ax.legend()
     return ax

@@ -11,7 +11,7 @@ Mask = NDArray[np.bool_]
 
 
 class MotionGrid(NamedTuple):
-    """Which values of one angle are free over a grid of two others.
+    """Which values of one angle, or of one translation, are free over a grid of two other coordinates.
 
     Arrays over the grid are (rows, columns). An angle is named by its two movements, the positive one first.
     `lower_deg` and `upper_deg` are the ends of the free interval that holds the start, else of the one nearest to it;
@@ -42,3 +42,5 @@ class MotionGrid(NamedTuple):
     lower_ligament: Optional[NDArray[np.str_]] = None
     """The ligament that makes the lower end, "" where none does; None of a joint without ligaments."""
     upper_ligament: Optional[NDArray[np.str_]] = None
+    units: Tuple[str, str, str] = ("deg", "deg", "deg")
+    """Of columns, rows and the varied coordinate; "mm" of a translation, whatever the names above say."""

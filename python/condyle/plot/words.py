@@ -81,8 +81,14 @@ def step_of_ticks(span: float, steps: int) -> float:
     return 90.0 * math.ceil(span / (90 * steps))
 
 
-def angle_axis(positive: str, negative: str, low: float, high: float) -> str:
-    """Label of an axis of a clinical angle: "flexion (°)", and with its opposite where the axis has both."""
+SYMBOLS = {"deg": "°", "mm": "mm"}
+"""Of the units of a map's coordinates."""
+
+
+def angle_axis(positive: str, negative: str, low: float, high: float, symbol: str = "°") -> str:
+    """Label of an axis of a clinical angle: "flexion (°)", and with its opposite where the axis has both; of a translation "x (mm)"."""
+    if symbol != "°":
+        return f"{spaced(positive)} ({symbol})"
     if low < 0 < high:
         return f"{spaced(positive)} (+) / {spaced(negative)} ({MINUS}) (°)"
     if high <= 0 and low < 0:

@@ -86,8 +86,8 @@ motion::GridAxis axis_over(JointAngle angle, const Degrees& low, const Degrees& 
 BoxErrorRecord box_error(const motion::MotionMap& map, const Degrees& low, const Degrees& high,
                          std::span<const TurningCoordinate> coordinates) {
   const motion::MapGrid& grid = map.grid;
-  const std::size_t column = number_of(grid.column.angle), row = number_of(grid.row.angle),
-                    varied = number_of(grid.vary);
+  const std::size_t column = number_of(grid.column.coordinate.angle()),
+                    row = number_of(grid.row.coordinate.angle()), varied = number_of(grid.vary.angle());
   const auto past = [&](std::size_t i, double at) { return std::max({low[i] - at, at - high[i], 0.0}); };
   const auto in_coordinates = [&](const Degrees& at) {
     std::vector<double> values;
@@ -104,8 +104,8 @@ BoxErrorRecord box_error(const motion::MotionMap& map, const Degrees& low, const
                        .forbidden_at_deg = {}};
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     Degrees at{};
-    at[column] = grid.column.value_deg(i % grid.column.count());
-    at[row] = grid.row.value_deg(i / grid.column.count());
+    at[column] = grid.column.value(i % grid.column.count());
+    at[row] = grid.row.value(i / grid.column.count());
     const double held_past = std::max(past(column, at[column]), past(row, at[row]));
     const motion::FreeInterval* free = map.points[i].nearest_to_start();
     if (held_past == 0) ++error.points_in_box;
@@ -137,6 +137,8 @@ std::optional<LimitBoxRecord> limit_box_record(const Case& of, const RangeAnswer
                                                std::span<const TurningCoordinate> coordinates,
                                                LimitSource source, const Control& control) {
   if (!answer.range) throw UsageError("limits for other programs are exact ones, with the centre held");
+  if (answer.map && answer.map->grid.translates())
+    throw UsageError("limits for other programs are held against a map of angles");
   check_coordinates(answer.joint, coordinates);
   RangeRequest asked{.range = request.range};
   for (const TurningCoordinate& coordinate : coordinates)

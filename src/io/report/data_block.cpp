@@ -34,9 +34,9 @@ constexpr std::int16_t no_gap = std::numeric_limits<std::int16_t>::max();
 
 Json axis_json(const motion::GridAxis& axis, Anatomy joint) {
   Json values = Json::array();
-  for (std::size_t i = 0; i < axis.count(); ++i) values.push_back(axis.value_deg(i));
-  return {{"angle", name_of(axis.angle, joint)},
-          {"opposite", movement_name(axis.angle, RotationSense::negative, joint)},
+  for (std::size_t i = 0; i < axis.count(); ++i) values.push_back(axis.value(i));
+  return {{"angle", name_of(axis.coordinate, joint)},
+          {"opposite", movement_name(axis.coordinate, RotationSense::negative, joint)},
           {"values_deg", std::move(values)}};
 }
 
@@ -176,7 +176,8 @@ std::string data_block(const Report& report) {
   BlockArrays arrays;
   Json json = joint_object(report, arrays);
   if (report.rom) {
-    if (report.rom->answer.map) json["map"] = map_json(*report.rom->answer.map);
+    if (report.rom->answer.map && !report.rom->answer.map->grid.translates())
+      json["map"] = map_json(*report.rom->answer.map);
     json["zones"] = zones_json(*report.rom, arrays);
   }
   if (report.layers) json["layers"] = layers_json(*report.layers, joint, arrays);

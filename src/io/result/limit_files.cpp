@@ -218,8 +218,9 @@ const BoxSideRecord& side_of(const LimitBoxRecord& box, JointAngle angle) {
 /// The free interval of each point of the map, as the coordinates have it.
 std::string coupled_limits(const LimitBoxRecord& box) {
   const motion::MotionMap& map = *box.map;
-  const BoxSideRecord &column = side_of(box, map.grid.column.angle), &row = side_of(box, map.grid.row.angle),
-                      &varied = side_of(box, map.grid.vary);
+  const BoxSideRecord &column = side_of(box, map.grid.column.coordinate.angle()),
+                      &row = side_of(box, map.grid.row.coordinate.angle()),
+                      &varied = side_of(box, map.grid.vary.angle());
   const auto value = [](const BoxSideRecord& side, double angle_deg) {
     return side.sign * (angle_deg - side.offset_deg) + 0.0;  // no -0
   };
@@ -229,8 +230,8 @@ std::string coupled_limits(const LimitBoxRecord& box) {
   text += "\n";
   const std::size_t columns = map.grid.column.count();
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    text += fmt::format("{},{}", value(column, map.grid.column.value_deg(i % columns)),
-                        value(row, map.grid.row.value_deg(i / columns)));
+    text += fmt::format("{},{}", value(column, map.grid.column.value(i % columns)),
+                        value(row, map.grid.row.value(i / columns)));
     const motion::FreeInterval* free = map.points[i].nearest_to_start();
     if (!free) {
       text += ",,,,\n";

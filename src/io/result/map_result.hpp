@@ -26,5 +26,7 @@ std::string map_intervals_csv(const motion::MotionMap& map, std::span<const Liga
 
 /// "flexion" or "extension", and so on: the clinical word for changing an angle in this sense.
 std::string_view movement_name(JointAngle angle, RotationSense sense, Anatomy joint) noexcept;
+/// The same of what a map varies or holds; of a translation "x" or "negative_x".
+std::string movement_name(motion::MapCoordinate coordinate, RotationSense sense, Anatomy joint);
 
 }  // namespace condyle::io

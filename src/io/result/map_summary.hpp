@@ -18,17 +18,18 @@ struct ReasonCounts {
 /// Summary of a map.
 struct MapSummary {
   ReasonCounts negative_ends, positive_ends;
-  std::size_t free_elsewhere = 0;  ///< points in contact at the start that are free at other angles
+  std::size_t free_elsewhere = 0;  ///< points in contact at the start that are free at other values
   std::size_t with_islands = 0;    ///< points with a free interval beyond the one that is drawn
   motion::FreeVolume volume;
 };
 
 inline MapSummary map_summary_of(const motion::MotionMap& map) {
   MapSummary summary;
-  for (const motion::FreeAngles& point : map.points) {
-    ++summary.negative_ends.of[static_cast<std::size_t>(point.from_start.negative.reason)];
-    ++summary.positive_ends.of[static_cast<std::size_t>(point.from_start.positive.reason)];
-    summary.free_elsewhere += !point.from_start.free_at_start() && !point.intervals.empty();
+  for (std::size_t i = 0; i < map.grid.size(); ++i) {
+    const motion::MapPoint point = map.point(i);
+    ++summary.negative_ends.of[static_cast<std::size_t>(point.negative.reason)];
+    ++summary.positive_ends.of[static_cast<std::size_t>(point.positive.reason)];
+    summary.free_elsewhere += !point.free_at_start() && !point.intervals.empty();
     summary.with_islands += point.intervals.size() > 1;
   }
   summary.volume = motion::free_volume(map);
@@ -38,23 +39,23 @@ inline MapSummary map_summary_of(const motion::MotionMap& map) {
 /// All free intervals of a map, point by point:
 ///
 ///   offset     0     2  2        5  ...      one per point, plus one
-///   low_deg   | a b |  | c d e |    ...      point i owns [offset[i], offset[i+1])
+///   low       | a b |  | c d e |    ...      point i owns [offset[i], offset[i+1])
 struct MapIntervals {
   std::vector<std::size_t> offset = {0};
-  std::vector<double> low_deg, high_deg;  ///< values of the varied angle
+  std::vector<double> low, high;  ///< values of the varied coordinate
   std::vector<motion::LimitReason> low_reason, high_reason;
 };
 
 inline MapIntervals all_intervals(const motion::MotionMap& map) {
   MapIntervals all;
-  for (const motion::FreeAngles& point : map.points) {
-    for (const motion::FreeInterval& free : point.intervals) {
-      all.low_deg.push_back((map.grid.start + free.low).degrees());
-      all.high_deg.push_back((map.grid.start + free.high).degrees());
-      all.low_reason.push_back(free.at_low.reason);
-      all.high_reason.push_back(free.at_high.reason);
+  for (std::size_t i = 0; i < map.grid.size(); ++i) {
+    for (const motion::MapInterval& free : map.point(i).intervals) {
+      all.low.push_back(free.low.value);
+      all.high.push_back(free.high.value);
+      all.low_reason.push_back(free.low.reason);
+      all.high_reason.push_back(free.high.reason);
     }
-    all.offset.push_back(all.low_deg.size());
+    all.offset.push_back(all.low.size());
   }
   return all;
 }

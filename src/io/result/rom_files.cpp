@@ -37,6 +37,9 @@ bool is_drawn_of_rom(std::string_view name) {
       for (const std::string_view movement : {positive, negative})
         if (stem == fmt::format("map_{}", movement) || stem == fmt::format("map_{}_ends", movement))
           return true;
+  for (const std::string_view translation : {"x", "y", "z"})
+    if (stem == fmt::format("map_{}", translation) || stem == fmt::format("map_negative_{}", translation))
+      return true;
   return false;
 }
 
@@ -82,7 +85,7 @@ std::int32_t code_of(motion::LimitReason reason) noexcept {
 constexpr std::int32_t nothing_free = -1;
 
 /// Which of the joint's ligaments makes an interval's end.
-std::int32_t ligament_of(const motion::Limit& end) noexcept {
+std::int32_t ligament_of(const motion::MapEnd& end) noexcept {
   return end.ligament ? static_cast<std::int32_t>(*end.ligament) : -1;
 }
 
@@ -91,10 +94,10 @@ void add_ligaments(const motion::MotionMap& map, std::span<const Ligament> ligam
   std::string names;
   for (const Ligament& ligament : ligaments) names += ligament.name + "\n";
   std::vector<double> low, high;
-  for (const motion::FreeAngles& point : map.points)
-    for (const motion::FreeInterval& free : point.intervals) {
-      low.push_back(ligament_of(free.at_low));
-      high.push_back(ligament_of(free.at_high));
+  for (std::size_t i = 0; i < map.grid.size(); ++i)
+    for (const motion::MapInterval& free : map.point(i).intervals) {
+      low.push_back(ligament_of(free.low));
+      high.push_back(ligament_of(free.high));
     }
   options.fields.push_back({"ligaments", std::move(names)});
   options.fields.push_back({"interval_low_ligament", std::move(low)});
@@ -110,13 +113,13 @@ void add_intervals(const motion::MotionMap& map, VtpOptions& options) {
     return numbers;
   };
   options.fields.push_back({"interval_offset", std::vector<double>(all.offset.begin(), all.offset.end())});
-  options.fields.push_back({"interval_low_deg", std::move(all.low_deg)});
-  options.fields.push_back({"interval_high_deg", std::move(all.high_deg)});
+  options.fields.push_back({fmt::format("interval_low_{}", map.grid.vary.unit()), std::move(all.low)});
+  options.fields.push_back({fmt::format("interval_high_{}", map.grid.vary.unit()), std::move(all.high)});
   options.fields.push_back({"interval_low_reason", codes(all.low_reason)});
   options.fields.push_back({"interval_high_reason", codes(all.high_reason)});
 }
 
-/// The grid as a flat surface in degrees, columns along x and rows along y, with what is free at its points.
+/// The grid as a flat surface in degrees and mm, columns along x and rows along y, with what is free at its points.
 void write_map_surface(const std::filesystem::path& path, const motion::MotionMap& map,
                        std::span<const Ligament> ligaments, VtpOptions options) {
   const std::size_t columns = map.grid.column.count(), rows = map.grid.row.count();
@@ -124,24 +127,22 @@ void write_map_surface(const std::filesystem::path& path, const motion::MotionMa
   std::vector<double> lower, upper, width;
   std::vector<std::int32_t> intervals, lower_reason, upper_reason, lower_ligament, upper_ligament;
   std::vector<std::uint8_t> free_at_start;
-  for (std::size_t i = 0; i < map.points.size(); ++i) {
-    surface.vertices.push_back(
-        {map.grid.column.value_deg(i % columns), map.grid.row.value_deg(i / columns), 0});
-    const motion::FreeAngles& point = map.points[i];
-    const motion::FreeInterval* drawn = point.nearest_to_start();
+  for (std::size_t i = 0; i < map.grid.size(); ++i) {
+    surface.vertices.push_back({map.grid.column.value(i % columns), map.grid.row.value(i / columns), 0});
+    const motion::MapPoint point = map.point(i);
+    const motion::MapInterval* drawn = point.nearest_to_start();
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    lower.push_back(drawn ? (map.grid.start + drawn->low).degrees() : none);
-    upper.push_back(drawn ? (map.grid.start + drawn->high).degrees() : none);
-    lower_reason.push_back(drawn ? code_of(drawn->at_low.reason) : nothing_free);
-    upper_reason.push_back(drawn ? code_of(drawn->at_high.reason) : nothing_free);
-    lower_ligament.push_back(drawn ? ligament_of(drawn->at_low) : -1);
-    upper_ligament.push_back(drawn ? ligament_of(drawn->at_high) : -1);
+    lower.push_back(drawn ? drawn->low.value : none);
+    upper.push_back(drawn ? drawn->high.value : none);
+    lower_reason.push_back(drawn ? code_of(drawn->low.reason) : nothing_free);
+    upper_reason.push_back(drawn ? code_of(drawn->high.reason) : nothing_free);
+    lower_ligament.push_back(drawn ? ligament_of(drawn->low) : -1);
+    upper_ligament.push_back(drawn ? ligament_of(drawn->high) : -1);
     double free = 0;
-    for (const motion::FreeInterval& interval : point.intervals)
-      free += (interval.high - interval.low).degrees();
+    for (const motion::MapInterval& interval : point.intervals) free += interval.width;
     width.push_back(free);
     intervals.push_back(static_cast<std::int32_t>(point.intervals.size()));
-    free_at_start.push_back(point.from_start.free_at_start() ? 1 : 0);
+    free_at_start.push_back(point.free_at_start() ? 1 : 0);
   }
   for (std::size_t row = 0; row + 1 < rows; ++row)
     for (std::size_t column = 0; column + 1 < columns; ++column) {
@@ -150,13 +151,14 @@ void write_map_surface(const std::filesystem::path& path, const motion::MotionMa
       surface.triangles.push_back({a, b, c});
       surface.triangles.push_back({a, c, d});
     }
-  std::vector<MeshArray> arrays = {{"free_width_deg", std::move(width)},
-                                   {"lower_deg", std::move(lower)},
-                                   {"upper_deg", std::move(upper)},
-                                   {"lower_reason", std::move(lower_reason)},
-                                   {"upper_reason", std::move(upper_reason)},
-                                   {"free_intervals", std::move(intervals)},
-                                   {"free_at_start", std::move(free_at_start)}};
+  const auto in_unit = [&](std::string_view name) {
+    return fmt::format("{}_{}", name, map.grid.vary.unit());
+  };
+  std::vector<MeshArray> arrays = {
+      {in_unit("free_width"), std::move(width)},  {in_unit("lower"), std::move(lower)},
+      {in_unit("upper"), std::move(upper)},       {"lower_reason", std::move(lower_reason)},
+      {"upper_reason", std::move(upper_reason)},  {"free_intervals", std::move(intervals)},
+      {"free_at_start", std::move(free_at_start)}};
   add_intervals(map, options);
   if (!ligaments.empty()) {
     arrays.push_back({"lower_ligament", std::move(lower_ligament)});

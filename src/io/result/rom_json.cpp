@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -48,47 +50,75 @@ Json json_of(const ReasonCounts& counts) {
   return json;
 }
 
+/// "first_deg" or "first_mm".
+std::string in_unit(std::string_view name, motion::MapCoordinate coordinate) {
+  return fmt::format("{}_{}", name, coordinate.unit());
+}
+
 Json json_of(const motion::GridAxis& axis, Anatomy joint) {
-  return {{"angle", name_of(axis.angle, joint)},
-          {"opposite", movement_name(axis.angle, RotationSense::negative, joint)},
-          {"first_deg", axis.first_deg},
-          {"last_deg", axis.last_deg},
-          {"step_deg", axis.step_deg},
+  const motion::MapCoordinate& of = axis.coordinate;
+  return {{of.is_angle() ? "angle" : "translation", name_of(of, joint)},
+          {"opposite", movement_name(of, RotationSense::negative, joint)},
+          {in_unit("first", of), axis.first},
+          {in_unit("last", of), axis.last},
+          {in_unit("step", of), axis.step},
           {"count", axis.count()}};
 }
 
-Json json_of(const MapIntervals& all) {
+Json json_of(const MapIntervals& all, motion::MapCoordinate vary) {
   const auto names = [](const std::vector<motion::LimitReason>& reasons) {
     Json list = Json::array();
     for (const motion::LimitReason reason : reasons) list.push_back(name_of(reason));
     return list;
   };
   return {{"offset", all.offset},
-          {"low_deg", all.low_deg},
-          {"high_deg", all.high_deg},
+          {in_unit("low", vary), all.low},
+          {in_unit("high", vary), all.high},
           {"low_reason", names(all.low_reason)},
           {"high_reason", names(all.high_reason)}};
 }
 
+/// The coordinates that have one value all over a map.
+Json held_json(const motion::MapGrid& grid, Anatomy joint) {
+  Json held = Json::object();
+  const auto add = [&](motion::MapCoordinate coordinate, double value) {
+    if (coordinate != grid.row.coordinate && coordinate != grid.column.coordinate && coordinate != grid.vary)
+      held[in_unit(name_of(coordinate, joint), coordinate)] = value;
+  };
+  for (const JointAngle angle : all_joint_angles) add(angle, angle_of(grid.held.angles, angle).degrees());
+  for (int axis = 0; axis < 3; ++axis)
+    add(motion::MapCoordinate::translation(axis), grid.held.translation_mm[axis]);
+  return held;
+}
+
 Json json_of(const motion::MotionMap& map) {
   const MapSummary summary = map_summary_of(map);
-  return {{"vary", name_of(map.grid.vary, map.anatomy)},
-          {"vary_opposite", movement_name(map.grid.vary, RotationSense::negative, map.anatomy)},
-          {"start_deg", map.grid.start.degrees()},
-          {"range_deg", {map.grid.range.negative.degrees(), map.grid.range.positive.degrees()}},
-          {"columns", json_of(map.grid.column, map.anatomy)},
-          {"rows", json_of(map.grid.row, map.anatomy)},
-          {"points", map.points.size()},
-          {"negative_ends", json_of(summary.negative_ends)},
-          {"positive_ends", json_of(summary.positive_ends)},
-          {"free_elsewhere", summary.free_elsewhere},
-          {"with_islands", summary.with_islands},
-          {"intervals", json_of(all_intervals(map))},
-          {"free_volume_deg3", summary.volume.plain_deg3},
-          {map.anatomy == Anatomy::shoulder ? "free_volume_sine_weighted_deg3"
-                                            : "free_volume_cosine_weighted_deg3",
-           summary.volume.weighted_deg3},
-          {"row_free_area_deg2", summary.volume.row_area_deg2}};
+  const motion::MapGrid& grid = map.grid;
+  const bool turns = grid.vary.is_angle();
+  Json json{
+      {"vary", name_of(grid.vary, map.anatomy)},
+      {"vary_opposite", movement_name(grid.vary, RotationSense::negative, map.anatomy)},
+      {in_unit("start", grid.vary),
+       turns ? grid.start.degrees() : grid.held.translation_mm[grid.vary.axis()]},
+      {in_unit("range", grid.vary), turns ? Json{grid.range.negative.degrees(), grid.range.positive.degrees()}
+                                          : Json{grid.slide_range.negative_mm, grid.slide_range.positive_mm}},
+      {"columns", json_of(grid.column, map.anatomy)},
+      {"rows", json_of(grid.row, map.anatomy)},
+      {"points", grid.size()},
+      {"negative_ends", json_of(summary.negative_ends)},
+      {"positive_ends", json_of(summary.positive_ends)},
+      {"free_elsewhere", summary.free_elsewhere},
+      {"with_islands", summary.with_islands},
+      {"intervals", json_of(all_intervals(map), grid.vary)}};
+  if (grid.translates()) {
+    json["held"] = held_json(grid, map.anatomy);
+    return json;
+  }
+  json["free_volume_deg3"] = summary.volume.plain_deg3;
+  json[map.anatomy == Anatomy::shoulder ? "free_volume_sine_weighted_deg3"
+                                        : "free_volume_cosine_weighted_deg3"] = summary.volume.weighted_deg3;
+  json["row_free_area_deg2"] = summary.volume.row_area_deg2;
+  return json;
 }
 
 Json sphere_json(const Vec3& centre, double radius) {

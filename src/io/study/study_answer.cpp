@@ -96,7 +96,7 @@ std::string limit_lines(const Cells& row, const RangeAnswer& answer, const Limit
 void add_map(Cells& fields, const motion::MotionMap& map) {
   const MapSummary summary = map_summary_of(map);
   const auto add = [&](auto value) { fields.push_back(fmt::format("{}", value)); };
-  add(map.points.size());
+  add(map.grid.size());
   add(summary.volume.plain_deg3);
   add(summary.volume.weighted_deg3);
   for (const ReasonCounts* ends : {&summary.negative_ends, &summary.positive_ends})

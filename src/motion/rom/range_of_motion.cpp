@@ -18,6 +18,7 @@
 #include "motion/rom/overlap.hpp"
 #include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
+#include "motion/search/free_slides.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -69,6 +70,9 @@ constexpr tangential::RingTableOptions coarse_rings{.cells_per_triangle = 0.03};
 /// Tables about the axis of adduction that a part of the fixed body keeps: built-in motions change adduction at two flexions.
 constexpr std::size_t adductions_kept = 2;
 
+/// Directions of slides in whose frames a part of the fixed body is kept.
+constexpr std::size_t slides_kept = 3;
+
 /// With the bodies in each other's role.
 ContactWitness exchanged(const ContactWitness& contact) {
   return {contact.mobile_feature, contact.fixed_feature, contact.mobile_point, contact.fixed_point,
@@ -91,13 +95,16 @@ struct RangeOfMotion::Parts {
   /// A part of the fixed body.
   struct FixedPart {
     IncludedBody body;
-    RotationTable flexion_table;
+    core::Lazy<std::optional<RotationTable>> about_flexion = {};
     core::LatestFew<Angle, std::optional<RotationTable>, adductions_kept> adduction_tables = {};
+    core::LatestFew<Vec3, std::optional<SlidingBody>, slides_kept> slides = {};
 
-    FixedPart(PartOfMesh part, CoordinateSystem system)
-        : body(std::move(part)), flexion_table(body.tree, flexion_axis(system)) {}
-    FixedPart(const FixedPart& before, const Points& vertices, CoordinateSystem system)
-        : body(before.body, vertices), flexion_table(body.tree, flexion_axis(system)) {}
+    explicit FixedPart(PartOfMesh part) : body(std::move(part)) {}
+    FixedPart(const FixedPart& before, const Points& vertices) : body(before.body, vertices) {}
+
+    const RotationTable& flexion_table(CoordinateSystem axes) const {
+      return *about_flexion.get([&](auto& made) { made.emplace(body.tree, flexion_axis(axes)); });
+    }
 
     /// About the axis that the angles of a start have.
     std::shared_ptr<const std::optional<RotationTable>> adduction_table(CoordinateSystem axes,
@@ -132,6 +139,7 @@ struct RangeOfMotion::Parts {
 
   JointKind kind;
   CoordinateSystem system;
+  TranslationFrame translation_frame;
   Mesh whole_fixed, whole_mobile;
   BearingRule bearing_rule;
   BearingFinding bearing;
@@ -164,6 +172,7 @@ struct RangeOfMotion::Parts {
   Parts(const Joint& joint, BearingFinding found, BearingRule rule, PartsOfJoint included)
       : kind(joint.kind),
         system(joint.coordinates()),
+        translation_frame(joint.translation_frame),
         whole_fixed(joint.fixed.mesh),
         whole_mobile(joint.mobile.mesh),
         bearing_rule(rule),
@@ -174,7 +183,7 @@ struct RangeOfMotion::Parts {
         ligaments(joint),
         workers([this] { return Worker(*this); }) {
     for (PartOfMesh& part : included.fixed)
-      fixed.push_back(std::make_shared<const FixedPart>(std::move(part), system));
+      fixed.push_back(std::make_shared<const FixedPart>(std::move(part)));
     for (PartOfMesh& part : included.mobile)
       mobile.push_back(std::make_shared<const MobilePart>(std::move(part), system));
   }
@@ -183,6 +192,7 @@ struct RangeOfMotion::Parts {
   Parts(const Parts& before, BodyRole moved, const Points& vertices)
       : kind(before.kind),
         system(before.system),
+        translation_frame(before.translation_frame),
         whole_fixed(before.whole_fixed),
         whole_mobile(before.whole_mobile),
         bearing_rule(before.bearing_rule),
@@ -196,7 +206,7 @@ struct RangeOfMotion::Parts {
         workers([this] { return Worker(*this); }) {
     if (moved == BodyRole::fixed) {
       whole_fixed = whole_fixed.moved_to(vertices);
-      for (auto& part : fixed) part = std::make_shared<const FixedPart>(*part, vertices, system);
+      for (auto& part : fixed) part = std::make_shared<const FixedPart>(*part, vertices);
     } else {
       whole_mobile = whole_mobile.moved_to(vertices);
       for (auto& part : mobile) part = std::make_shared<const MobilePart>(*part, vertices);
@@ -229,7 +239,7 @@ struct RangeOfMotion::Parts {
                                                            worker.fixed[pair.fixed].rotating, inverted(X_FM))
            : vary == JointAngle::adduction
                ? started(adduction_table(worker, pair.fixed, start), rotating, X_FM)
-               : started(fixed[pair.fixed]->flexion_table, rotating, X_FM);
+               : started(fixed[pair.fixed]->flexion_table(system), rotating, X_FM);
   }
 
   /// First contact of one part of each body.
@@ -367,6 +377,8 @@ RangeOfMotion::RangeOfMotion(const RangeOfMotion& before, const Vec3& fixed_by, 
   parts_ = std::make_unique<Parts>(of_fixed, BodyRole::mobile,
                                    shifted(before.parts_->whole_mobile.vertices(), mobile_by));
   parts_->ligaments = before.parts_->ligaments.shifted(fixed_by, mobile_by);
+  for (ImageCut& cut : parts_->bearing.fixed_cuts) cut.offset_mm += cut.normal.dot(fixed_by);
+  for (ImageCut& cut : parts_->bearing.mobile_cuts) cut.offset_mm += cut.normal.dot(mobile_by);
 }
 
 RangeOfMotion::~RangeOfMotion() = default;
@@ -427,6 +439,28 @@ FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
   std::sort(free.intervals.begin(), free.intervals.end(),
             [](const FreeInterval& a, const FreeInterval& b) { return a.low < b.low; });
   return free;
+}
+
+FreeSlides RangeOfMotion::free_slides(const Vec3& direction_F, const Pose& X_FM,
+                                      const SlideRange& range) const {
+  const AxisFrame frame(Vec3::Zero(), direction_F);
+  std::optional<FreeSlides> all;
+  for (const std::vector<PairOfParts>* pairs : {&parts_->impinging, &parts_->earlier})
+    for (const PairOfParts& pair : *pairs) {
+      if (pair.kind == ContactKind::soft) continue;
+      const Parts::FixedPart& fixed = *parts_->fixed[pair.fixed];
+      const auto placed = fixed.slides.get(
+          direction_F, [&](std::optional<SlidingBody>& body) { body.emplace(fixed.body.mesh, frame); });
+      FreeSlides free = motion::free_slides(fixed.body.mesh, **placed, parts_->mobile[pair.mobile]->body.mesh,
+                                            frame, X_FM, range);
+      const auto finish = [&](SlideEnd& end) {
+        if (end.contact) parts_->finish(*end.contact, pair, Rotating::mobile);
+      };
+      finish(free.negative), finish(free.positive);
+      for (FreeSlide& interval : free.intervals) finish(interval.low), finish(interval.high);
+      all = all ? free_in_both(*all, free) : std::move(free);
+    }
+  return *all;
 }
 
 const FreeInterval* FreeAngles::nearest_to_start() const noexcept {
@@ -500,6 +534,9 @@ JointKind RangeOfMotion::kind() const noexcept {
 }
 CoordinateSystem RangeOfMotion::coordinates() const noexcept {
   return parts_->system;
+}
+TranslationFrame RangeOfMotion::translation_frame() const noexcept {
+  return parts_->translation_frame;
 }
 const BearingFinding& RangeOfMotion::bearing() const noexcept {
   return parts_->bearing;

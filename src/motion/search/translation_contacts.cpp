@@ -40,34 +40,19 @@ bool has_area(const TriangleCorners& t) noexcept {
   return seen(0, 1) || seen(1, 2) || seen(2, 0);
 }
 
-/// The body's triangles that have an area, in the frame of the direction.
-struct PlacedBody {
-  std::vector<Index> kept;
-  TriMesh mesh;
-  mesh::TriangleTree tree;
-  double size = 0;
-
-  PlacedBody(const Mesh& body, const AxisFrame& frame) : mesh(placed(body, frame, kept)), tree(mesh) {
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      size = std::max(size, mesh.vertices[v].cwiseAbs().maxCoeff());
+TriMesh placed(const Mesh& body, const AxisFrame& frame, std::vector<Index>& kept) {
+  TriMesh out{Points(body.vertices().size()), {}};
+  for (std::size_t v = 0; v < body.vertices().size(); ++v)
+    out.vertices.set(v, frame.to_axis(body.vertices()[v]));
+  for (Index t = 0; t < body.triangles().size(); ++t) {
+    if (!has_area({out.vertices[body.triangles()[t][0]], out.vertices[body.triangles()[t][1]],
+                   out.vertices[body.triangles()[t][2]]}))
+      continue;
+    out.triangles.push_back(body.triangles()[t]);
+    kept.push_back(t);
   }
-  Index number(Index place) const noexcept { return kept[tree.mesh_triangles()[place]]; }
-
- private:
-  static TriMesh placed(const Mesh& body, const AxisFrame& frame, std::vector<Index>& kept) {
-    TriMesh out{Points(body.vertices().size()), {}};
-    for (std::size_t v = 0; v < body.vertices().size(); ++v)
-      out.vertices.set(v, frame.to_axis(body.vertices()[v]));
-    for (Index t = 0; t < body.triangles().size(); ++t) {
-      if (!has_area({out.vertices[body.triangles()[t][0]], out.vertices[body.triangles()[t][1]],
-                     out.vertices[body.triangles()[t][2]]}))
-        continue;
-      out.triangles.push_back(body.triangles()[t]);
-      kept.push_back(t);
-    }
-    return out;
-  }
-};
+  return out;
+}
 
 /// A height with a bound on its error.
 struct SeenHeight {
@@ -242,7 +227,7 @@ class ContactUnion {
 };
 
 /// Positions at which some vertices of the probing body are inside the other, which is closed; `sense` is 1 if the probing body moves.
-void add_probed(const PlacedBody& probing, const PlacedBody& closed, double sense, ContactUnion& found) {
+void add_probed(const SlidingBody& probing, const SlidingBody& closed, double sense, ContactUnion& found) {
   const double slack = probe_slack * (probing.size + closed.size);
   const auto& vertices = probing.tree.vertices();
   const std::size_t step = vertices.size() / most_sliding_probes + 1;
@@ -321,7 +306,7 @@ double highest(const TriangleCorners& t) noexcept {
   return std::max({t[0].z(), t[1].z(), t[2].z()});
 }
 
-void compare_as_seen(const PlacedBody& fixed, const Node& f, const PlacedBody& mobile, const Node& m,
+void compare_as_seen(const SlidingBody& fixed, const Node& f, const SlidingBody& mobile, const Node& m,
                      ContactUnion& found) {
   for (Index i = f.first; i < f.last; ++i) {
     const TriangleCorners a = fixed.tree.corners(i);
@@ -340,14 +325,31 @@ void compare_as_seen(const PlacedBody& fixed, const Node& f, const PlacedBody& m
 
 }  // namespace
 
-std::vector<TranslationContact> translation_contacts(const Mesh& fixed_mesh, const Mesh& mobile_in_F,
+SlidingBody::SlidingBody(const Mesh& body, const AxisFrame& frame)
+    : mesh(placed(body, frame, kept)), tree(mesh), is_closed(body.is_closed()) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    size = std::max(size, mesh.vertices[v].cwiseAbs().maxCoeff());
+}
+
+std::vector<TranslationContact> translation_contacts(const Mesh& fixed, const Mesh& mobile_in_F,
                                                      const Vec3& direction) {
   const AxisFrame frame(Vec3::Zero(), direction);
-  const PlacedBody fixed(fixed_mesh, frame), mobile(mobile_in_F, frame);
+  return translation_contacts(SlidingBody(fixed, frame), SlidingBody(mobile_in_F, frame), frame, {});
+}
+
+std::vector<TranslationContact> translation_contacts(const SlidingBody& fixed, const SlidingBody& mobile,
+                                                     const AxisFrame& frame, const SlideRange& range) {
   ContactUnion found;
-  if (fixed.tree.empty() || mobile.tree.empty()) return {};
-  if (fixed_mesh.is_closed()) add_probed(mobile, fixed, 1, found);
-  if (mobile_in_F.is_closed()) add_probed(fixed, mobile, -1, found);
+  const auto add_beyond = [&](double low, double high) {
+    const auto end = [](double at) { return TranslationEnd{at, at, no_index, no_index, Vec3::Zero()}; };
+    if (low < high) found.add({end(low), end(high)});
+  };
+  add_beyond(-unbounded, range.negative_mm);
+  add_beyond(range.positive_mm, unbounded);
+  found.unite();
+  if (fixed.tree.empty() || mobile.tree.empty()) return found.all();
+  if (fixed.is_closed) add_probed(mobile, fixed, 1, found);
+  if (mobile.is_closed) add_probed(fixed, mobile, -1, found);
   std::vector<PlacedNodes> open = {{0, 0}};
   while (!open.empty()) {
     const PlacedNodes pair = open.back();

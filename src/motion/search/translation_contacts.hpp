@@ -2,7 +2,10 @@
 
 #include <vector>
 
+#include "condyle/first_contact.hpp"
 #include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
+#include "mesh/triangle_tree.hpp"
 
 /// Contact of a body that slides along a direction. docs/mathematics/05-contact-under-rotation.md.
 
@@ -36,5 +39,22 @@ struct TranslationContact {
 /// other without meeting its surface is free here.
 std::vector<TranslationContact> translation_contacts(const Mesh& fixed, const Mesh& mobile_in_F,
                                                      const Vec3& direction);
+
+/// A body's triangles that have an area, in the frame of a direction.
+struct SlidingBody {
+  std::vector<Index> kept;  ///< their numbers in the mesh
+  TriMesh mesh;
+  mesh::TriangleTree tree;
+  double size = 0;  ///< the largest coordinate
+  bool is_closed;
+
+  SlidingBody(const Mesh& body, const AxisFrame& frame);
+  Index number(Index place) const noexcept { return kept[tree.mesh_triangles()[place]]; }
+};
+
+/// The same of bodies that are placed already. With an end to the range everything beyond it is one contact without triangles, and no pair is
+/// compared there.
+std::vector<TranslationContact> translation_contacts(const SlidingBody& fixed, const SlidingBody& mobile,
+                                                     const AxisFrame& frame, const SlideRange& range);
 
 }  // namespace condyle::motion

@@ -200,3 +200,14 @@ def test_what_has_no_ends_to_draw_is_refused():
     refused(lambda: figures.map_ends(grid, "up"), "'up'", ValueError)
     refused(lambda: figures.map_ends(grid._replace(upper_deg=np.full((4, 5), np.nan))), "no point of the map is free", ValueError)
     refused(lambda: figures.map_ends(plane(rows=1)), "no area", ValueError)
+
+
+def test_translations_are_in_millimetres():
+    """As condyle.MotionMap and rom.json have them."""
+    grid = plane()._replace(row=("x", "negative_x"), varied=("y", "negative_y"), units=("deg", "mm", "mm"), upper_deg=plane().upper_deg / 100)
+    ax = figures.motion_map(grid)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("flexion (°)", "x (mm)")
+    bar = ax.figure.axes[-1]
+    assert bar.get_ylabel() == "limit of y (mm)"
+    assert len(bar.get_yticks()) > 3, "steps below a millimetre"
+    assert figures.motion_map(grid._replace(), "negative").figure.axes[-1].get_ylabel() == "limit of negative y (mm)"
