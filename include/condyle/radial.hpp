@@ -152,9 +152,10 @@ class RadialTable {
   ///
   /// The first update gives each vertex a slack rectangle on the cube: triangles are binned by the rectangles
   /// of their vertices. Later updates bin only those triangles again whose vertices leave their rectangles,
-  /// which then grow: a surface that goes to and fro soon stays in them, and an update costs measuring the
-  /// triangles, a third to nearly half of a build. Lists are then longer by a quarter to a half, and a query
-  /// takes 1.1 to 1.5 times as long; a new table is without.
+  /// which then grow: a surface that goes to and fro soon stays in them, and an update costs looking at the vertices. Queries
+  /// read the radii of the surface as it was, with slack for how far it has moved, and measure the triangles that points come
+  /// near to; once they have measured as many as there are, all is measured anew. Lists are longer by a quarter to a half
+  /// than those of a new table.
   void update(PointsView vertices);
 
   /// New positions of some vertices, each named once. The same otherwise; UsageError also if a number is no vertex's.
