@@ -79,7 +79,8 @@ struct PictureOptions {
 struct Picture {
   std::size_t width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
-  std::string caption = {};  ///< the line over the bodies, drawn or not: the pose and what it is to the limits
+  std::string caption =
+      {};  ///< the line over the bodies, drawn or not: the pose and what it is to the limits
 };
 
 /// Both bodies at a pose in parallel projection on white, smoothly shaded with the light at the viewer, 16
