@@ -449,7 +449,7 @@ void add_hip(CLI::App& app) {
   add_label_file(*command, options->labels);
   command
       ->add_option("--samples", options->range.band.samples,
-                   "Displaced joints of each band, from 5 to 95 % of them; 0 for limits without bands")
+                   "Varied joints of each band, from 5 to 95 % of them; 0 for limits without bands")
       ->check(whole_number(0))
       ->option_text("N (200)");
   add_accept(*command, options->range);

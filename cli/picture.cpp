@@ -79,6 +79,7 @@ void picture_command(const PictureArguments& options, const CLI::App& command) {
   io::add_other_files(from, read);
   io::write_png(options.out, drawn, &from);
   say_written({options.out});
+  print(drawn.caption + '\n');
 }
 
 void add_body(CLI::App& command, const char* name, std::optional<BodyRole>& body, const char* what) {

@@ -84,7 +84,7 @@ CLI::Option* add_accept(CLI::App& command, RangeArguments& given) {
 
 CLI::Option* add_band(CLI::App& command, RangeArguments& given, std::uint64_t fewest) {
   const std::string band_help =
-      "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N displaced joints";
+      "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N varied joints";
   auto* band = command.add_flag("--band{200}", band_help)
                    ->check(whole_number(fewest))
                    ->each([&given](const std::string& text) { given.band.samples = std::stoull(text); })

@@ -51,7 +51,7 @@ void add_cut(CLI::App& command, ResectionArguments& given, CLI::Option* targets)
 CLI::Option* add_confidence(CLI::App& command, ResectionArguments& given) {
   return command
       .add_option("--confidence", given.confidence,
-                  "Plan with the margin with which each target is reached in this share of the displaced "
+                  "Plan with the margin with which each target is reached in this share of the varied "
                   "joints of the band, above 0 and below 1")
       ->option_text("SHARE (0.5)");
 }
@@ -59,7 +59,7 @@ CLI::Option* add_confidence(CLI::App& command, ResectionArguments& given) {
 std::optional<double> confidence_of(const ResectionArguments& given,
                                     const std::optional<BandRequest>& bands) {
   if (given.confidence && !bands)
-    throw UsageError("--confidence: is a share of displaced joints, and there are none");
+    throw UsageError("--confidence: is a share of varied joints, and there are none");
   return given.margin_mm ? std::nullopt
                          : std::optional(given.confidence.value_or(*ResectionRequest{}.confidence));
 }

@@ -29,7 +29,7 @@ struct ResectionArguments {
 void add_cut(CLI::App& command, ResectionArguments& given, CLI::Option* targets);
 /// --confidence, of commands that displace joints.
 CLI::Option* add_confidence(CLI::App& command, ResectionArguments& given);
-/// What it says, empty where the margin is given. Throws UsageError without displaced joints.
+/// What it says, empty where the margin is given. Throws UsageError without varied joints.
 std::optional<double> confidence_of(const ResectionArguments& given, const std::optional<BandRequest>& bands);
 /// --curve.
 CLI::Option* add_curve(CLI::App& command, std::size_t& points);

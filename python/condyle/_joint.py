@@ -528,7 +528,7 @@ class Joint(DescribedJoint):
 
         Each is None where the meshes do not show it, with the reason. `pelvic_tilt_deg` tilts the pelvis forwards before
         acetabular angles are measured, which are those of the joint's frame else. `band_samples` above 0: with bands over so many
-        displaced joints, as :meth:`RangeOfMotion.bands` displaces them. UsageError for joints other than hips.
+        varied joints, as :meth:`RangeOfMotion.bands` displaces them. UsageError for joints other than hips.
 
         C++: `condyle::measure_hip` in condyle/hip_measures.hpp; `condyle measure`.
 
@@ -560,7 +560,7 @@ class Joint(DescribedJoint):
             The body that is cut; with "both" the fixed one for `share` of the depth, half if not given.
         margin_mm : float, optional
             The remaining bone stays clear of the other bone's surface moved outwards by this. Without it the margin is the smallest
-            with which `confidence`, half if not given, of the displaced joints reaches each target.
+            with which `confidence`, half if not given, of the varied joints reaches each target.
         confidence : float, optional
             That share, above 0 and below 1.
         deepest_mm, within_mm : float, optional

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LimitBand:
-    """The spread of one motion's limit, degrees: 5, 50 and 95 % of the displaced joints.
+    """The spread of one motion's limit, degrees: 5, 50 and 95 % of the varied joints.
 
     `text` quotes it: "88–>120" where 5 % reach the end of the motion's range. `width_from_…_deg` are widths where only one source is uncertain; shares are 0 to 1.
     """

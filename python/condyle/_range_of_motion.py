@@ -262,7 +262,7 @@ class RangeOfMotion(HasLimits, Unchanging):
               seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
               sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None,
               progress: Progress = None) -> LimitBands:
-        """How far each limit moves with what is uncertain: 5 to 95 % of `samples` displaced joints, 20 to 100,000.
+        """How far each limit moves with what is uncertain: 5 to 95 % of `samples` varied joints, 20 to 100,000.
 
         Standard deviations and a seed not given are those of the joint file, else 0.5 mm, 1 degree, 0.25 mm and 1; a surface from
         a label map has 0.25 voxels along its normal, which is the grid's part and not the segmentation's. The same seed gives the

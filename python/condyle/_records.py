@@ -321,7 +321,7 @@ class NormalRange(Record):
 
 
 class MeasureBand(Record):
-    """A measure over displaced joints.
+    """A measure over varied joints.
 
     Attributes
     ----------
@@ -367,7 +367,7 @@ class MeasureRecord(Record):
     patients : NormalRange or None
         likewise of patients, which is not called normal
     band : MeasureBand or None
-        `p5`, `median`, `p95` over the displaced joints, and `samples_without_value`; null without `--band`
+        `p5`, `median`, `p95` over the varied joints, and `samples_without_value`; null without `--band`
     """
 
     key: str

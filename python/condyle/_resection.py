@@ -89,7 +89,7 @@ class ReachedTarget:
     Attributes
     ----------
     confidence_reached : float, optional
-        Share of the displaced joints in which this cut reaches the target.
+        Share of the varied joints in which this cut reaches the target.
     before_band, band : tuple of float, optional
         5 %, median and 95 % of where they end before the cut and after it.
     other_centre : OtherCentre, optional
@@ -115,7 +115,7 @@ class ReachedTarget:
 
 
 class ResectionAlternative(NamedTuple):
-    """The margin with which a share of the displaced joints reaches the targets, and what it costs."""
+    """The margin with which a share of the varied joints reaches the targets, and what it costs."""
 
     confidence: float
     margin_mm: float
@@ -144,7 +144,7 @@ class Resection(Compiled, Generic[OfJoint]):
     before, after : tuple of MotionLimit
         Exact limits of all motions of the joint, before and without the bone.
     gain_deg : tuple of float
-        What the cut adds to each of them; to a target in the share `confidence` of displaced joints, or half. Smaller triangles of the same
+        What the cut adds to each of them; to a target in the share `confidence` of varied joints, or half. Smaller triangles of the same
         surface add a little by themselves, which is no gain.
     measures : dict of (before, after)
         Measures of a hip by the keys of :class:`HipMeasures`; None for a measure that the meshes do not show. Empty for other joints.
@@ -153,11 +153,11 @@ class Resection(Compiled, Generic[OfJoint]):
     margin_mm : float
         As planned.
     confidence : float, optional
-        The share of displaced joints that it was chosen for; None for a margin that was given.
+        The share of varied joints that it was chosen for; None for a margin that was given.
     displaced : int
         Joints by which the plan is judged.
     alternatives : tuple of ResectionAlternative
-        This plan, and the one for 80 % of displaced joints.
+        This plan, and the one for 80 % of varied joints.
     notes : what the plan must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
@@ -262,7 +262,7 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
               keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
               bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection[OfJoint]:
     if confidence is not None and (margin_mm is not None or band_samples == 0):
-        raise UsageError("confidence: chooses the margin for a share of displaced joints, and " + (
+        raise UsageError("confidence: chooses the margin for a share of varied joints, and " + (
             "margin_mm is given" if margin_mm is not None else "band_samples is 0"))
     chosen = None if margin_mm is not None else 0.5 if confidence is None else number(confidence, "confidence")
     known = Motions(joint._native)

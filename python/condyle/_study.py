@@ -329,7 +329,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         Column and row of a map of each joint, as of :meth:`RangeOfMotion.map`: `({"flexion": (0, 120, 5)},
         {"adduction": (-30, 30, 5)})`; `vary` is the third angle if not given.
     band_samples : int
-        For bands of so many displaced joints (20 or more; 0: none), by `seed` and the standard deviations `sigma_...`;
+        For bands of so many varied joints (20 or more; 0: none), by `seed` and the standard deviations `sigma_...`;
         those not given are those of each joint's file, else 1, 0.5 mm, 1 degree and 0.25 mm.
     depth_at : str
         How deep the bodies are in each other in this pose, such as "flexion=90 internal_rotation=30".

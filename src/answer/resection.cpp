@@ -21,7 +21,7 @@ namespace {
 
 using core::formatted;
 
-/// Margins that are tried for a share of displaced joints: the largest, mm, and the steps up to it while the share is not reached; the first by
+/// Margins that are tried for a share of varied joints: the largest, mm, and the steps up to it while the share is not reached; the first by
 /// what a mm of margin usually gives. It is found once the share ends each motion so little beyond its target, or the margin is so near to one
 /// that is too small.
 constexpr double largest_margin_mm = 4, least_step_mm = 0.1, most_step_mm = 1, usual_deg_per_mm = 12;
@@ -155,9 +155,10 @@ void note_bones(ResectionAnswer& answer) {
     if (share > 0 && before && after && *after > *before - alpha_unchanged_deg)
       answer.notes.push_back(
           {ResectionNoteCode::alpha_stays,
-           formatted("the alpha angle stays, %.1f degrees before and %.1f after: it is read where the "
-                     "surface leaves the head's sphere, and bone there that no target meets stays",
-                     *before, *after)});
+           formatted(
+               "the largest alpha angle stays, %.1f degrees before and %.1f after: it is read where the "
+               "surface leaves the head's sphere, and bone there that no target meets stays",
+               *before, *after)});
   }
   for (const auto* cut : {&answer.resection.mobile, &answer.resection.fixed}) {
     if (!*cut) continue;
@@ -195,7 +196,7 @@ Joint with_finer_triangles(const plan::Resection& resection) {
   return joint;
 }
 
-/// What the requested share of displaced joints gains at the least in a motion.
+/// What the requested share of varied joints gains at the least in a motion.
 Angle gain_of_share(const motion::LimitBand& before, const motion::LimitBand& after, double share) {
   std::vector<double> gains;
   for (std::size_t i = 0; i < before.turned.size(); ++i)
@@ -252,7 +253,7 @@ void note_gains(ResectionAnswer& answer) {
     answer.notes.push_back({ResectionNoteCode::no_gain, "these motions gain nothing: " + same});
 }
 
-/// Finds the smallest margin with which a share of displaced joints reaches the targets: what displaces a joint moves its surfaces towards
+/// Finds the smallest margin with which a share of varied joints reaches the targets: what displaces a joint moves its surfaces towards
 /// each other from any side, which a plan for more degrees would not meet.
 class MarginSearch {
  public:
@@ -310,7 +311,7 @@ class MarginSearch {
  private:
   struct Tried {
     plan::Resection resection;
-    std::vector<std::vector<Angle>> turned;  ///< of each target, by the displaced joints, descending
+    std::vector<std::vector<Angle>> turned;  ///< of each target, by the varied joints, descending
   };
   using Each = std::map<double, Tried>;
 
@@ -386,7 +387,7 @@ bool reach_share(const ResectionRequest& request, const motion::BandOptions& dis
     else
       answer.notes.push_back(
           {ResectionNoteCode::band_not_reached,
-           formatted("no margin up to %.3g mm reaches the targets in %.4g %% of %zu displaced joints",
+           formatted("no margin up to %.3g mm reaches the targets in %.4g %% of %zu varied joints",
                      search.tried_to_mm(), 100 * share, displaced.samples)});
   }
   answer.margin_mm = *margin_mm;
@@ -394,7 +395,7 @@ bool reach_share(const ResectionRequest& request, const motion::BandOptions& dis
   return true;
 }
 
-/// Bands of all motions before and after the cut, and in how many displaced joints it reaches the targets; false if it was stopped.
+/// Bands of all motions before and after the cut, and in how many varied joints it reaches the targets; false if it was stopped.
 bool judge(const Joint& before, const ResectionRequest& request, const motion::BandOptions& displaced,
            const Control& control, ResectionAnswer& answer) {
   std::vector<motion::Motion> motions = request.motions;
@@ -444,8 +445,8 @@ void add_other_centre(const Joint& before, const motion::BearingFinding& bearing
   }
 }
 
-/// "reaches 42.6 in 50 % of 200 displaced hips, 281 mm3; in 80 %: 455 mm3; 42.6 deg about the head's centre, 25.1 about the socket's: not
-/// decided".
+/// "reaches 42.6 in 50 % of 200 varied hips, 281 mm3; in 80 %: 455 mm3; 42.6 deg about the head's centre (now 32.6), 25.1 about the socket's
+/// (now 18.0): not decided".
 std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
   const plan::ReachOutcome& outcome = answer.resection.targets[i];
   const auto& [reached, before, after, other, is_plan, text] = answer.promises[i];
@@ -454,10 +455,9 @@ std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
                          ? formatted("reaches %.1f", reach)
                          : formatted("ends at %.1f, short of %.1f", ends, reach);
   if (reached)
-    said +=
-        formatted("%s in %.0f %% of %zu displaced %s", said.starts_with("ends") ? ", which it reaches" : "",
-                  100 * *reached, answer.displaced, answer.resection.joint.is_hip() ? "hips" : "joints") +
-        formatted(", %.4g mm3", answer.resection.volume_mm3());
+    said += formatted("%s in %.0f %% of %zu varied %s", said.starts_with("ends") ? ", which it reaches" : "",
+                      100 * *reached, answer.displaced, answer.resection.joint.is_hip() ? "hips" : "joints") +
+            formatted(", %.4g mm3", answer.resection.volume_mm3());
   for (const ResectionAnswer::Alternative& each : answer.alternatives)
     if (each.confidence != answer.confidence && !outcome.blocked)
       said += formatted("; in %.4g %%: %.4g mm3", 100 * each.confidence, each.volume_mm3);
@@ -465,10 +465,11 @@ std::string promise_text(const ResectionAnswer& answer, std::size_t i) {
   const char* const names[] = {"the head's", "the socket's"};
   const bool is_socket = other->of == BodyRole::fixed;
   const std::string centres =
-      formatted("%.1f deg about %s centre, %.1f about %s: %s", ends, names[!is_socket],
-                other->after.degrees(), names[is_socket], other->is_decided ? "decided" : "not decided");
+      formatted("%.1f deg about %s centre (now %.1f), %.1f about %s (now %.1f): %s", ends, names[!is_socket],
+                outcome.before.end.turned.degrees(), other->after.degrees(), names[is_socket],
+                other->before.degrees(), other->is_decided ? "decided" : "not decided");
   if (is_plan) return said + "; " + centres;
-  return "no plan: " + centres + formatted(", and less than now, %.1f", outcome.before.end.turned.degrees());
+  return "no plan: " + centres + ", and the choice of a centre takes more than the cut gives";
 }
 
 void note_promises(ResectionAnswer& answer) {

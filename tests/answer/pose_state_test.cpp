@@ -92,6 +92,31 @@ TEST(PoseState, WithoutABearingSurfaceIsContactAndSaysWhy) {
   EXPECT_EQ(standing_at(arm, *limits, degrees(0, 0, 0), {41, 0, 0}).state, PoseState::contact);
 }
 
+TEST(PoseState, AtTheVeryEndOfALigamentItIsThisEnd) {
+  Joint tied = arm;
+  tied.ligaments.push_back({.name = "string",
+                            .fixed = {{-30, -20, 10}},
+                            .mobile = {{0, -90, 0}},
+                            .slack_length_mm = 80,
+                            .ends_at_strain = 0.1});
+  const auto limits = limits_of_poses(tied);
+  int ends = 0;
+  for (int f = -20; f <= 10; ++f)
+    for (const RotationSense sense : {RotationSense::negative, RotationSense::positive}) {
+      const JointAngles start = degrees(f, 0, 0);
+      const auto end = limits->limit({"any", adduction, sense, start, Angle::degrees(90)}).end;
+      if (end.reason != LimitReason::ligament) continue;
+      ++ends;
+      // Rounding puts some of these poses just before the end, and some just past it.
+      const PoseStanding there =
+          standing_at(tied, *limits, motion::turned_by(start, adduction, end.turned * sign_of(sense)));
+      EXPECT_EQ(there.state, PoseState::at_limit) << f;
+      ASSERT_TRUE(there.nearest) << f;
+      EXPECT_EQ(there.nearest->end.reason, LimitReason::ligament) << f;
+    }
+  EXPECT_GT(ends, 20);
+}
+
 TEST(PoseState, ComesWithDepthAndMotion) {
   const auto limits = limits_of_poses(arm);
   const contact::JointContact bodies(arm);

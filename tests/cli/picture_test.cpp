@@ -24,7 +24,7 @@ TEST_F(PictureCommand, WritesAPngOfTheSizeAskedFor) {
       "picture hip.toml --pose 'flexion=110 adduction=15 internal_rotation=35' --view anterior-superior "
       "--hide fixed "
       "--size 320x200 --out pictures/deep.png");
-  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(ran.out, "flexion 110, adduction 15, internal rotation 35 deg, in contact: impinging\n");
   EXPECT_EQ(ran.err, "condyle: note: wrote pictures/deep.png\n");
   const std::string png = text_of("pictures/deep.png");
   ASSERT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");

@@ -10,7 +10,7 @@ namespace {
 class ResectCommand : public CommandTest {
  protected:
   void SetUp() override { sample_into(here, "hip --scenario 1 --alpha-angle 70"); }
-  /// Plans are for the joint as given where no band is requested: displaced joints take seconds.
+  /// Plans are for the joint as given where no band is requested: varied joints take seconds.
   static std::string without_band(const std::string& arguments) {
     const bool is_plan = arguments.starts_with("resect") && arguments.find("--band") == arguments.npos;
     return arguments + (is_plan ? " --band=0" : "");
@@ -248,7 +248,7 @@ TEST_F(ResectCommand, RefusesInOneLine) {
         {"--reach flexion=140 --band=20 --confidence 1", 2, "confidence must be above 0 and below 1"},
         {"--reach flexion=140 --margin 1 --confidence 0.8", 2, "--margin excludes --confidence"},
         {"--reach flexion=140 --confidence 0.8", 2,
-         "--confidence: is a share of displaced joints, and there are none"},
+         "--confidence: is a share of varied joints, and there are none"},
         {"--reach flexion=140 --burr 0.4", 2, "burr's diameter must be from 0.5 to 30 mm"},
         {"--reach flexion=140 --deepest 0", 2, "must be above 0 mm"},
         {"--reach flexion=140 --from fixed --protect marks.txt", 2, "marked to stay, and it is not cut"},

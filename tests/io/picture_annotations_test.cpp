@@ -54,6 +54,20 @@ TEST(PictureAnnotations, SayTheCoordinatesThatTheJointHas) {
             "flexion 0, adduction 0, internal rotation 0 deg, x 1.5, y 0, z -2 mm");
 }
 
+TEST(PictureAnnotations, SayWhatThePoseIsToTheLimits) {
+  const Joint joint{"boxes",
+                    JointKind::hinge,
+                    Side::right,
+                    {"fixed", box({0, 0, 0}, {1, 1, 1})},
+                    {"mobile", box({1.2, 0, 0}, {2, 1, 1})}};
+  const auto caption = [&](const JointAngles& at) {
+    return io::caption_of(joint, at, pose_at(joint.coordinates(), at));
+  };
+  EXPECT_EQ(caption({}), "flexion 0 deg, free");
+  // An edge at (1.2, 0) turns to (0.85, 0.85).
+  EXPECT_EQ(caption(angles(45, 0, 0)), "flexion 45 deg, in contact, and any contact ends a motion");
+}
+
 TEST(PictureAnnotations, DrawABarOfTheLengthItSays) {
   const Joint joint = two_boxes(JointKind::ball);
   const io::PictureOptions options{.view = io::view_named("anterior", Side::right),

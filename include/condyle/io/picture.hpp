@@ -72,13 +72,15 @@ struct PictureOptions {
   std::optional<double> field_mm = {};
   std::vector<PictureMark> marks = {};
   bool is_annotated =
-      true;  ///< with a scale bar, letters of where the sides are, a line of the pose, and the key of the marks
+      true;  ///< with a scale bar, letters of where the sides are, the caption, and the key of the marks
 };
 
 /// Red, green, blue of each pixel, row by row from the top left.
 struct Picture {
   std::size_t width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
+  std::string caption =
+      {};  ///< the line over the bodies, drawn or not: the pose and what it is to the limits
 };
 
 /// Both bodies at a pose in parallel projection on white, smoothly shaded with the light at the viewer, 16

@@ -109,7 +109,7 @@ def _above(paper: Paper, case: Case, rows: List[Row], heading: Tuple[str, str, s
     blocks += [nothing(1), paper.ribbon(text, EDGE_MM, INNER_MM, BIG, colour), nothing(1)]
     if rows:
         blocks += [paper.paragraph(" ".join(sheet_text.verdict(case, rows)), EDGE_MM, INNER_MM, BIG, bold=True), nothing(0.8)]
-    said = _other_targets(case, rows)[:MOST_TARGETS] + ([sheet_text.sweep_line(case.sweep)] if case.sweep else [])
+    said = _other_targets(case, rows)[:MOST_TARGETS] + ([sheet_text.how_planned(case.plan)] if case.plan and case.plan["cuts"] else []) + ([sheet_text.sweep_line(case.sweep)] if case.sweep else [])
     return stacked([*blocks, *(paper.paragraph(each, EDGE_MM, INNER_MM, 9) for each in said), nothing(GAP_MM)])
 
 
@@ -140,9 +140,10 @@ def _rest(paper: Paper, case: Case, rows: List[Row], table: List[Block], picture
 
 def _below(paper: Paper, case: Case, rows: List[Row]) -> Block:
     """What the columns of the limits are of."""
-    below = ["Living hips: of other people, in grey a clinical range."] * any(row.living[0] for row in rows)
+    below = ["Other hips: of living people, in grey a clinical range."] * any(row.living[0] for row in rows)
+    below += ["Simulated: where bone ends it in healthy hips."] * any(row.limit.get("bone_reference") for row in rows)
     below += ["Not compared with other hips, as zero is not known to be neutral."] * (case.rom is not None and (case.rom.get("zero") or {}).get("is_neutral") is False)
-    below += ["In brackets: 5 to 95 % of displaced joints."] * any(end.band for row in rows for end in row.ends)
+    below += ["In brackets: 5 to 95 % of varied joints, this one with its centre, axes and surfaces moved within their uncertainty."] * any(end.band for row in rows for end in row.ends)
     below += [f"{each}." for each in footnotes([row.now for row in rows])]
     return paper.paragraph(" ".join(below), EDGE_MM, INNER_MM, SMALL)
 
@@ -157,13 +158,13 @@ def _limits(paper: Paper, rows: Sequence[Row]) -> List[Block]:
         Column("target"): [sheet_text.degrees_text(row.target["reach_deg"]) if row.target else "" for row in rows],
         Column("planned"): [value_text(row.ends[1]) if row.after else "" for row in rows],
         Column(centre): [f"{each['before_deg']:.1f} → {each['after_deg']:.1f}°" if each else "" for each in others],
-        Column("living hips", 2): [row.living[0] for row in rows],
+        Column("other hips", 2): [row.living[0] for row in rows],
         Column("ended by (socket's clock)" if at_rim else "ended by", 3): [_ended_by(row, at_rim) for row in rows],
     }
     kept = {column: texts for column, texts in fields.items() if any(texts)}
     cells = []
     for i, row in enumerate(rows):
-        grey = {"living hips": row.living[1], "planned": not row.is_changed}
+        grey = {"other hips": row.living[1], "planned": not row.is_changed}
         given = [Cell(texts[i] or "–", bold=column.heading == "planned" and row.is_changed,
                       colour=style.GREY if grey.get(column.heading) else style.BLACK) for column, texts in kept.items()]
         cells.append([Cell(str(i + 1)), Cell(marked_name(row.now), bold=row.target is not None), *given])

@@ -86,18 +86,22 @@ def _cuts(paper: Paper, case: Case, given: Optional[Path]) -> List[Picture]:
             continue
         path = given if given and not found else case.paths["plan"].with_name(f"depth_{cut['body']}.png")
         image = _image(paper, path) if path == given or path.exists() else None
-        title = f"Planned resection: {spaced(cut['name'])}" + (", depth in mm" if image and path != given else "")
+        title = f"Cut of {spaced(cut['name'])}" + (", depth in mm" if image and path != given else "")
+        title += "".join(f"; {spaced(other['name'])} overleaf" for other in case.plan["cuts"] if not found and other is not cut and other["volume_mm3"] > 0)
         height = TITLE_MM + 4 * SMALL * MM_PER_POINT * LINE + (82.5 if image else 0)
         found.append(Picture(title, height, height, functools.partial(_cut, paper, case.plan, cut, image)))
     return found
 
 
 def _cut(paper: Paper, plan: Dict[str, Any], cut: Dict[str, Any], image: Optional[Draw], left: float, top: float, width: float, height: float) -> None:
-    hour = f", at {clock_text(cut['deepest_hour'])} of the neck's clock" if cut["deepest_hour"] is not None else ""
+    clock = "neck's clock" if cut["body"] == "mobile" else "socket's clock"
+    hour = f", at {clock_text(cut['deepest_hour'])} of the {clock}" if cut["deepest_hour"] is not None else ""
     said = f"{sheet_text.volume_text(cut)} over {cut['area_mm2']:.0f} mm²; {cut['deepest_mm']:.1f} mm at the deepest{hour}."
-    deep = [f"{clock_text(i / 2)}–{clock_text((i + 1) / 2)} {depth:.1f}" for i, depth in enumerate(plan["depth_by_half_hour_mm"] or []) if depth >= 0.05]
+    # Files of earlier versions have hours of the neck only.
+    hours = cut.get("depth_by_half_hour_mm", plan["depth_by_half_hour_mm"] if cut["body"] == "mobile" else None)
+    deep = [f"{clock_text(i / 2)}–{clock_text((i + 1) / 2)} {depth:.1f}" for i, depth in enumerate(hours or []) if depth >= 0.05]
     if deep and cut["deepest_hour"] is not None:
-        said += f" Largest depth by the neck's clock (12 superior, 3 anterior), mm: {', '.join(deep)}."
+        said += f" Largest depth by the {clock} (12 superior, 3 anterior), mm: {', '.join(deep)}."
     text = paper.paragraph(said, left, width, SMALL)
     if image:
         image(left, top, width, height - text.height - 1)
@@ -109,7 +113,7 @@ def bars(paper: Paper, rows: Sequence[Row], spoken_of: Row, width: float) -> Pic
     planned = sorted((row for row in rows if row.target or (row.after and row.is_changed)), key=lambda row: not row.target)
     shown = planned[:6] or sorted(rows, key=lambda row: not (row is spoken_of or row.now.name in EXAMINED))[:4]
     targets = [row.target or {} for row in shown]
-    key = {"line: 5 to 95 % of displaced joints": any(end.band for row in shown for end in row.ends), "dashes: target": any(targets),
+    key = {"line: 5 to 95 % of varied joints": any(end.band for row in shown for end in row.ends), "dashes: target": any(targets),
            "diamond: about the other centre": any(target.get("other_centre") for target in targets),
            "ring: expected of living hips": any(row.now.living_deg is not None for row in shown)}
     text = paper.paragraph(capitalised("; ".join(words for words, is_shown in key.items() if is_shown)), EDGE_MM + INNER_MM - width, width, SMALL)

@@ -50,9 +50,9 @@ class Row(NamedTuple):
 
     @property
     def living(self) -> Tuple[str, bool]:
-        """As in `rom`'s column of living hips, and whether that is a clinical range only."""
-        text = str((self.limit.get("living") or {}).get("text", "")).strip("-")
-        return text, text.startswith("clinical")
+        """As in `rom`'s column of living hips, with what bone of simulated ones leaves, and whether that is a clinical range only."""
+        text, bone = str((self.limit.get("living") or {}).get("text", "")).strip("-"), self.limit.get("bone_reference")
+        return "; ".join(filter(None, (text, bone and f"simulated {bone['healthy_deg']:g}"))), text.startswith("clinical") and not bone
 
     @property
     def lacks(self) -> Tuple[float, str]:
@@ -118,7 +118,7 @@ def volume_text(cut: Dict[str, Any]) -> str:
 
 def _doubts(plan: Dict[str, Any], target: Dict[str, Any]) -> Tuple[bool, bool, bool]:
     """Whether the planned joint ends before the target; is no plan, as about the other centre it ends before today's limit; or is not decided: about
-    that centre, or as fewer displaced joints reach the target than asked for, half if that is not said, or nobody knows how many."""
+    that centre, or as fewer varied joints reach the target than asked for, half if that is not said, or nobody knows how many."""
     reach, band, share = target["reach_deg"] - CHANGED_DEG, target["band"], target.get("confidence_reached")
     is_rare = share < (plan.get("confidence") or 0.5) - 1e-9 if share is not None else band["median_deg"] <= reach if band else bool(_cuts(plan))
     return target["after"]["limit_deg"] <= reach, not target.get("is_plan", True), is_rare or not (target.get("other_centre") or {"is_decided": True})["is_decided"]
@@ -174,23 +174,27 @@ def verdict(case: Case, rows: List[Row]) -> List[str]:
 
 
 def _promise(plan: Dict[str, Any], target: Dict[str, Any]) -> str:
-    """How far the plan goes, in how many displaced joints, and about which centre, in the words of every shell; of files of earlier versions what they have."""
+    """How far the plan goes, in how many varied joints, and about which centre, in the words of every shell; of files of earlier versions what they have."""
     lacks, band, text = target["reach_deg"] - target["after"]["limit_deg"], target["band"], target.get("text")
     if not text:
         reach = f"{lacks:.1f}° short of" if lacks >= CHANGED_DEG else "which reaches"
         text = f"ends at {target['after']['limit_deg']:.1f}°, {reach} its target of {degrees_text(target['reach_deg'])}"
-        text += f"; 5 to 95 % of displaced joints reach {band['p5_deg']:.0f} to {band['p95_deg']:.0f}°" if band else ""
-    text += "; in how many displaced joints was not computed" * (band is None)
+        text += f"; 5 to 95 % of varied joints reach {band['p5_deg']:.0f} to {band['p95_deg']:.0f}°" if band else ""
+    text += "; in how many varied joints was not computed" * (band is None)
     begin, said = "After the cut" if _cuts(plan) else "As it is", text.replace(" deg", "°").replace("mm3", "mm³")
     return f"{capitalised(said) if target.get('is_plan') is False else f'{begin} it {said}'}."
 
 
 def other_targets(case: Case, first: str) -> List[str]:
-    """What the plan gives of all targets but the first, and its margin."""
-    if case.plan is None:
-        return []
-    said = [f"{motion_name(target['motion'])}: {_promise(case.plan, target)}" for target in case.plan["targets"] if target["motion"] != first]
-    return said + [f"Planned with a margin of {number(round(case.plan['margin_mm'], 2))} mm."] * (case.plan["margin_mm"] > 0)
+    """What the plan gives of all targets but the first."""
+    return [f"{motion_name(target['motion'])}: {_promise(case.plan, target)}" for target in case.plan["targets"] if target["motion"] != first] if case.plan else []
+
+
+def how_planned(plan: Dict[str, Any]) -> str:
+    """The share that makes a plan's ribbon green, and the margin."""
+    share, margin = plan.get("confidence"), number(round(plan["margin_mm"], 2))
+    keeps = f"; {'for that ' if share else ''}the bone that stays keeps clear of the other bone's surface by a margin of {margin} mm" * (plan["margin_mm"] > 0)
+    return f"Green needs {100 * (share or 0.5):g} % of varied joints that reach every target{keeps}."
 
 
 def how_sure(case: Case, rows: List[Row]) -> str:
@@ -202,9 +206,9 @@ def how_sure(case: Case, rows: List[Row]) -> str:
         sigmas = [f"{name} {number(value)}{units[unit]}" for key, value in band["sigma"].items() if key.endswith(("_deg", "_mm")) and value
                   for name, _, unit in (key.rpartition("_"),)]
         sigmas += [f"{spaced(name).replace('.', ' ')} {number(value)}" for name, value in band["sigma"].get("parameters", {}).items()]
-        said.append(f"Band: 5 to 95 % of {band['samples']} joints displaced at random, standard deviations {', '.join(sigmas)}.")
+        said.append(f"Band: 5 to 95 % of {band['samples']} varied joints, standard deviations {', '.join(sigmas)}.")
     elif case.rom:
-        said.append("No band: condyle rom --band computes how far limits move in displaced joints.")
+        said.append("No band: condyle rom --band computes how far limits move in varied joints.")
     alone = [in_sentence(row.now.name) for row in rows if row.is_changed and row.now.band and not (row.after and row.after.band)]
     return " ".join(said + [f"No bands of {', '.join(alone)}: after the cut only those of targets are computed."] * bool(alone))
 
@@ -223,12 +227,12 @@ def _measure_name(key: str) -> Tuple[str, str]:
 
 
 def shape(case: Case) -> str:
-    """The measures that have a range of other people, or that the cut changes."""
+    """The measures that have a range of other people, or that the cut changes; and the largest alpha, of which notes speak."""
     measures = {key: each for key, each in case.measures["measures"].items() if each.get("value") is not None} if case.measures else {}
     changes = _changes(case.plan) if case.plan else {}
     ranges = {key: each["normal"] or each["patients"] for key, each in measures.items() if each["normal"] or each["patients"]}
     said = []
-    for key in dict.fromkeys((*ranges, *changes)):
+    for key in dict.fromkeys((*ranges, *changes, *({"alpha_largest_deg"} & measures.keys()))):
         name, unit = _measure_name(key)
         value = " → ".join(f"{each:.1f}".replace("-", MINUS) for each in changes.get(key, [measures[key]["value"]] if key in measures else []))
         span = ranges.get(key)

@@ -68,7 +68,7 @@ inline constexpr auto table<NormalRangeRecord> =
            field("source", &NormalRangeRecord::source, "where they are from"));
 template <>
 inline constexpr auto table<MeasureBandRecord> = record(
-    "MeasureBand", "A measure over displaced joints.",
+    "MeasureBand", "A measure over varied joints.",
     field("p5", &MeasureBandRecord::p5, "5 % of them are below; null if none shows the measure"),
     CONDYLE_KEYS(MeasureBandRecord, median, p95),
     field("samples_without_value", &MeasureBandRecord::samples_without_value, "joints that do not show it"));
@@ -90,7 +90,7 @@ inline constexpr auto table<MeasureRecord> = record(
           "if none is known"),
     field("patients", &MeasureRecord::patients, "likewise of patients, which is not called normal"),
     field("band", &MeasureRecord::band,
-          "`p5`, `median`, `p95` over the displaced joints, and `samples_without_value`; null without "
+          "`p5`, `median`, `p95` over the varied joints, and `samples_without_value`; null without "
           "`--band`"));
 template <>
 inline constexpr auto table<NeckHourRecord> =

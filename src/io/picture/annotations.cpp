@@ -7,9 +7,12 @@
 #include <cmath>
 #include <utility>
 
+#include "condyle/answer/case.hpp"
+#include "condyle/contact.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "io/picture/text.hpp"
 #include "io/result/movement_words.hpp"
+#include "io/result/pose_state.hpp"
 
 namespace condyle::io {
 namespace {
@@ -59,6 +62,17 @@ std::string pose_line(const Joint& joint, const JointAngles& at, const Pose& X_F
   if (joint.kind != JointKind::free) return line;
   const Vec3 along = coordinates_at(joint.coordinates(), X_FM, joint.translation_frame).translation_mm;
   return line + fmt::format(", x {}, y {}, z {} mm", tenths(along.x()), tenths(along.y()), tenths(along.z()));
+}
+
+std::string caption_of(const Joint& joint, const JointAngles& at, const Pose& X_FM) {
+  const std::string line = pose_line(joint, at, X_FM);
+  const auto limits = limits_of_poses(joint);
+  if (!limits) return line;
+  const bool in_contact = contact::JointContact(joint).in_contact(X_FM);
+  return line + ", " +
+         state_words(
+             pose_standing(*limits, at, X_FM.translation(), in_contact, PoseStanding::FindNearest::at_limits),
+             joint.anatomy);
 }
 
 void draw_annotations(Picture& picture, std::size_t rows_of_scene, const ViewDirection* view,

@@ -17,6 +17,9 @@ double scale_bar_mm(double longest_mm) noexcept;
 /// "flexion 110, adduction 15, internal rotation 35 deg": the coordinates that the joint has, to a tenth.
 std::string pose_line(const Joint& joint, const JointAngles& at, const Pose& X_FM);
 
+/// And what that pose is to the limits, as condyle depth says it: "flexion 140 deg, in contact: impinging".
+std::string caption_of(const Joint& joint, const JointAngles& at, const Pose& X_FM);
+
 /// Over the first rows of a picture, those of the bodies; without a view no letters.
 void draw_annotations(Picture& picture, std::size_t rows_of_scene, const ViewDirection* view,
                       double pixels_per_mm, const std::string& line);

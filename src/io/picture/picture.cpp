@@ -289,7 +289,7 @@ namespace {
 Picture drawn(const Scene& scene, PictureOptions options, const ColourScale& scale, const std::string& line,
               const ViewDirection* sides) {
   Picture picture{options.width, options.height,
-                  std::vector<std::uint8_t>(3 * options.width * options.height, 255)};
+                  std::vector<std::uint8_t>(3 * options.width * options.height, 255), line};
   const std::size_t rows_of_scene = options.height - io::legend_height(options);
   const std::size_t columns = options.width * io::samples, rows = rows_of_scene * io::samples;
   const auto& [kind, fixed, mobile, values] = scene;
@@ -327,7 +327,7 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, 
                                                                    : io::usual_range_mm,
                           options.range_mm || options.colour != PictureColour::depth};
   const TriMesh &fixed = joint.fixed.mesh.arrays(), mobile = posed(X_FM, joint.mobile.mesh.arrays());
-  return io::drawn({joint.kind, fixed, mobile, values}, options, scale, io::pose_line(joint, at, X_FM),
+  return io::drawn({joint.kind, fixed, mobile, values}, options, scale, io::caption_of(joint, at, X_FM),
                    &options.view);
 }
 

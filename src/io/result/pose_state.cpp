@@ -8,7 +8,7 @@
 
 namespace condyle::io {
 
-std::string state_text(const PoseStanding& standing, Anatomy joint) {
+std::string state_words(const PoseStanding& standing, Anatomy joint) {
   switch (standing.state) {
     case PoseState::free:
       return "free";
@@ -23,8 +23,13 @@ std::string state_text(const PoseStanding& standing, Anatomy joint) {
     case PoseState::contact:
       break;
   }
-  return "in contact, and any contact ends a motion: " +
-         (standing.why_unknown.empty() ? "no bearing surface is known" : standing.why_unknown);
+  return "in contact, and any contact ends a motion";
+}
+
+std::string state_text(const PoseStanding& standing, Anatomy joint) {
+  const std::string words = state_words(standing, joint);
+  if (standing.state != PoseState::contact) return words;
+  return words + ": " + (standing.why_unknown.empty() ? "no bearing surface is known" : standing.why_unknown);
 }
 
 std::string to_limit_text(const PoseStanding& standing, Anatomy joint) {

@@ -11,6 +11,8 @@
 namespace condyle::io {
 
 /// "bearing contact, ends no motion", "at the limit of internal rotation".
+std::string state_words(const PoseStanding& standing, Anatomy joint);
+/// And, of contact that nothing distinguishes, why.
 std::string state_text(const PoseStanding& standing, Anatomy joint);
 /// "7.6 degrees of internal rotation to the nearest limit"; empty beyond one and if there is none.
 std::string to_limit_text(const PoseStanding& standing, Anatomy joint);

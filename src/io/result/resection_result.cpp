@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "condyle/impingement_zone.hpp"
 #include "condyle/version.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
@@ -45,24 +46,26 @@ std::vector<CutOfBody> cuts_of(const plan::Resection& resection) {
   return cuts;
 }
 
-/// The hour of a point around the neck; empty without one.
-std::optional<double> neck_hour(const ResectionAnswer& answer, const Vec3& p) {
-  if (!answer.shape_before || !answer.shape_before->femur.neck) return std::nullopt;
+/// The hour of a point of a hip's bone around the neck, empty without one, or on the socket's clock.
+std::optional<double> hour_of(const ResectionAnswer& answer, BodyRole role, const Vec3& p) {
+  if (!answer.shape_before) return std::nullopt;
+  if (role == BodyRole::fixed) return motion::sagittal_clock().hour_of(p);
+  if (!answer.shape_before->femur.neck) return std::nullopt;
   const measure::NeckGeometry& neck = *answer.shape_before->femur.neck;
   return neck.clock.hour_of(p - neck.head.centre);
 }
 
 std::optional<double> deepest_hour(const ResectionAnswer& answer, const CutOfBody& cut) {
-  return cut.role == BodyRole::mobile ? neck_hour(answer, cut.cut.deepest_at) : std::nullopt;
+  return hour_of(answer, cut.role, cut.cut.deepest_at);
 }
 
-/// How deep the mobile bone is cut in each half hour.
-std::vector<double> depth_by_hour(const ResectionAnswer& answer) {
+/// How deep a bone that has hours is cut in each half hour.
+std::vector<double> depth_by_hour(const ResectionAnswer& answer, const CutOfBody& of) {
   std::vector<double> deepest(12 * bins_per_hour, 0);
-  const plan::CutBone& cut = *answer.resection.mobile;
+  const plan::CutBone& cut = of.cut;
   for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
     if (cut.depth_mm[v] == 0) continue;
-    const double hour = *neck_hour(answer, cut.before.vertices[v]);
+    const double hour = *hour_of(answer, of.role, cut.before.vertices[v]);
     double& bin = deepest[static_cast<std::size_t>(hour * bins_per_hour) % deepest.size()];
     bin = std::max(bin, cut.depth_mm[v]);
   }
@@ -70,7 +73,7 @@ std::vector<double> depth_by_hour(const ResectionAnswer& answer) {
 }
 
 bool has_hours(const ResectionAnswer& answer) {
-  return answer.resection.mobile && neck_hour(answer, Vec3::UnitX()).has_value();
+  return answer.resection.mobile && hour_of(answer, BodyRole::mobile, Vec3::UnitX()).has_value();
 }
 
 std::string target_lines(const ResectionAnswer& answer, std::size_t i) {
@@ -94,7 +97,7 @@ std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
       bone.body.name, bone.volume_mm3, bone.least_volume_mm3, bone.area_mm2, bone.deepest_mm,
       bone.deepest_at.x(), bone.deepest_at.y(), bone.deepest_at.z());
   if (const auto hour = deepest_hour(result.answer, cut))
-    text += ", " + io::clock_text(*hour) + " of the neck";
+    text += ", " + io::clock_text(*hour) + (cut.role == BodyRole::mobile ? " of the neck" : " of the socket");
   if (bone.burr_volume_mm3 > 0) text += fmt::format("; {:.1f} mm3 for the burr", bone.burr_volume_mm3);
   return text + "\n";
 }
@@ -209,6 +212,8 @@ Json cut_json(const ResectionAnswer& answer, const CutOfBody& cut) {
             {"deepest_mm", bone.deepest_mm},
             {"deepest_at_mm", io::numbers(bone.deepest_at)},
             {"deepest_hour", io::nullable(deepest_hour(answer, cut))}};
+  json["depth_by_half_hour_mm"] = nullptr;
+  if (json["deepest_hour"] != nullptr) json["depth_by_half_hour_mm"] = depth_by_hour(answer, cut);
   return json;
 }
 
@@ -276,7 +281,7 @@ Json resection_object(const ResectionResult& result) {
     alternatives.push_back(
         {{"confidence", each.confidence}, {"margin_mm", each.margin_mm}, {"volume_mm3", each.volume_mm3}});
   Json hours = nullptr;
-  if (has_hours(answer)) hours = depth_by_hour(answer);
+  if (has_hours(answer)) hours = depth_by_hour(answer, {BodyRole::mobile, *answer.resection.mobile});
   Json json{{"condyle", io::format_version},
             {"joint", result.joint.name},
             {"fixed", result.joint.fixed.name},
@@ -343,7 +348,8 @@ std::string resection_curve_csv(const ResectionResult& result) {
 std::string resection_hours_csv(const ResectionResult& result) {
   if (!has_hours(result.answer)) return {};
   std::string text = io::provenance_comments(result.provenance) + "hour,to_hour,deepest_mm\n";
-  const std::vector<double> depths = depth_by_hour(result.answer);
+  const std::vector<double> depths =
+      depth_by_hour(result.answer, {BodyRole::mobile, *result.answer.resection.mobile});
   for (std::size_t i = 0; i < depths.size(); ++i)
     text += fmt::format("{},{},{}\n", double(i) / bins_per_hour, double(i + 1) / bins_per_hour, depths[i]);
   return text;

@@ -68,8 +68,8 @@ std::vector<ResultColumn> measure_columns(bool with_bands) {
     const std::string unit(each.unit == "1" ? "" : each.unit);
     columns.push_back({column_name(each), unit, number_column, meaning_of(each)});
     if (!with_bands) continue;
-    columns.push_back({column_name(each, "_p5"), unit, number_column, "5 % of the displaced joints"});
-    columns.push_back({column_name(each, "_p95"), unit, number_column, "95 % of the displaced joints"});
+    columns.push_back({column_name(each, "_p5"), unit, number_column, "5 % of the varied joints"});
+    columns.push_back({column_name(each, "_p95"), unit, number_column, "95 % of the varied joints"});
   }
   columns.push_back({"measured_frame", "", text_column, "frame of the measures that turn with the pelvis"});
   columns.push_back({"measured_left_out", "", text_column, "pieces of the meshes that are not measured"});
