@@ -166,6 +166,27 @@ condyle_status condyle_joint_contact_radial_gaps(const condyle_joint_contact* co
   });
 }
 
+condyle_status condyle_joint_contact_arc_gaps(const condyle_joint_contact* contact, const condyle_pose* X_FM,
+                                              const double axis_point_mm[3], const double axis_direction[3],
+                                              condyle_body body, double* gaps_deg, double* gaps_mm,
+                                              size_t count) {
+  return c::guarded([&] {
+    const contact::JointContact& joint = c::required(contact, "contact").joint;
+    const contact::AxisLine axis{c::vector_of(axis_direction, "axis_direction"),
+                                 c::vector_of(axis_point_mm, "axis_point_mm")};
+    const contact::TangentialContact found = joint.tangential(c::pose_of(X_FM, "X_FM"), axis);
+    const auto& gaps = c::role_of(body) == BodyRole::mobile ? found.mobile_in_fixed : found.fixed_in_mobile;
+    if (!gaps) throw MeshError("arcs: the other body's mesh is open");
+    if (count != gaps->size())
+      throw UsageError("count is " + std::to_string(count) + ", and the body has " +
+                       std::to_string(gaps->size()) + " vertices");
+    if (gaps_mm) std::copy(gaps->arc_gap_mm.begin(), gaps->arc_gap_mm.end(), gaps_mm);
+    if (gaps_deg)
+      std::transform(gaps->angular_gap.begin(), gaps->angular_gap.end(), gaps_deg,
+                     [](Angle gap) { return gap.degrees(); });
+  });
+}
+
 condyle_status condyle_joint_contact_ray_angles(const condyle_joint_contact* contact,
                                                 condyle_contact_results* results, condyle_body body,
                                                 double* angles_deg, size_t count) {

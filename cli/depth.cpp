@@ -36,7 +36,7 @@ struct DepthArguments : JointArguments {
 
 DepthRequest request_of(const DepthArguments& options, const io::PoseArgument& given, Anatomy joint) {
   DepthRequest request{.X_FM = given.X_FM, .pose = given.pose.angles(), .method = options.method};
-  if (options.about) request.about = io::joint_angle_named(*options.about, joint);
+  if (options.about) request.about = io::arcs_about(*options.about, joint);
   // Files have the nearest distance of every vertex.
   if (!options.out.empty()) request.distances = contact::DistancesOf::all_vertices;
   return request;
@@ -138,9 +138,11 @@ void add_depth(CLI::App& app) {
              "axis; normal from triangles along their normals, open meshes too",
              "reliable");
   command
-      ->add_option("--about", options->about,
-                   "With --method tangential: the angle whose axis the mobile body rotates about")
-      ->option_text("flexion|adduction|internal_rotation (flexion)");
+      ->add_option(
+          "--about", options->about,
+          "With --method tangential: the angle whose axis the mobile body rotates about, or an axis in "
+          "the joint frame, \"x y z\", and a point of it in mm, \"x y z px py pz\"")
+      ->option_text("flexion|adduction|internal_rotation|AXIS [POINT] (flexion)");
   add_rays(*command, options->rays, "With --method normal: ");
   auto* out = add_out(*command, options->out,
                       "Write fixed.vtp, mobile.vtp, pairs.csv and depth.json into this folder");

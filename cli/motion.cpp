@@ -23,7 +23,7 @@ struct MotionArguments : JointArguments {
   std::string model_joint;  ///< of a model in place of a joint file
   std::optional<Side> side;
   ModelOptions model;
-  bool with_pressure = false, between = false, to_limits = false;
+  bool with_pressure = false, between = false, to_limits = false, screws = false;
   io::ContactChanges contact;
   BalanceArguments balance;
   std::vector<double> cycle;
@@ -52,6 +52,7 @@ MotionRequest request_of(const MotionArguments& options, const Joint& joint, io:
   if (options.balance.any()) request.load = load_of(options.balance);
   if (request.has_load()) request.balance = balance_options_of(options.balance, joint);
   if (options.between) request.between = BetweenFrames::always;
+  request.screws = options.screws;
   return request;
 }
 
@@ -148,6 +149,9 @@ void add_motion(CLI::App& app) {
   command->add_flag_callback(
       "--to-limits", [options] { options->to_limits = true; },
       "Compute how far each frame is from the nearest limit, one angle turning alone: some 10 ms a frame");
+  command->add_flag_callback(
+      "--screws", [options] { options->screws = true; },
+      "Compute depths along arcs about the screw axis of the step into each frame: some 10 ms a frame");
   auto* between = command->add_flag_callback(
       "--between", [options] { options->between = true; },
       "Also find contact between the samples, within bounds, if the centre moves. About a held centre it "
@@ -179,8 +183,8 @@ void add_motion(CLI::App& app) {
   group_help(*command,
              {{"Most used", {"--motion", "--load", "--force", "--out", "--json"}},
               {"Question",
-               {"--set", "--to-limits", "--between", "--loads", "--moment", "--force-frame", "--along",
-                "--free-rotations", "--ligaments"}},
+               {"--set", "--to-limits", "--screws", "--between", "--loads", "--moment", "--force-frame",
+                "--along", "--free-rotations", "--ligaments"}},
               {"Models", of_models},
               {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
               {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});

@@ -20,6 +20,7 @@ namespace {
 struct PictureArguments : JointArguments {
   std::string pose;
   std::string view = "anterior", size = "1200x900";
+  std::optional<std::string> about;
   std::optional<BodyRole> hidden, transparent;
   io::PictureOptions picture;
   bool measures = false;
@@ -66,6 +67,7 @@ void picture_command(const PictureArguments& options, const CLI::App& command) {
   const io::PoseArgument given = io::given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note("pose: " + remark);
   io::PictureOptions picture = options.picture;
+  if (options.about) picture.about = io::arcs_about(*options.about, joint.anatomy);
   read_size(options.size, picture);
   picture.view = io::view_named(options.view, joint.side);
   picture.fixed = style_of(BodyRole::fixed, options);
@@ -115,6 +117,12 @@ void add_picture(CLI::App& app) {
       "centre; by the distance to the nearest point; or not",
       "depth");
   command
+      ->add_option(
+          "--about", options->about,
+          "Colour by the depth along arcs about this angle's axis, or about an axis, as condyle depth "
+          "takes it")
+      ->option_text("ANGLE|AXIS [POINT]");
+  command
       ->add_option("--range", options->picture.range_mm,
                    "Colours end at this distance or depth. Default: 8 mm, and for depths enough for all")
       ->option_text("MM");
@@ -141,8 +149,8 @@ void add_picture(CLI::App& app) {
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
                         {"Output",
-                         {"--set", "--transparent", "--measures", "--range", "--field", "--plain", "--size",
-                          "--strict", "--help"}}});
+                         {"--set", "--about", "--transparent", "--measures", "--range", "--field", "--plain",
+                          "--size", "--strict", "--help"}}});
   command->callback([options, command] { picture_command(*options, *command); });
 }
 

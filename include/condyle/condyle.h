@@ -151,6 +151,14 @@ CONDYLE_API condyle_status condyle_joint_contact_radial_gaps(const condyle_joint
                                                              const condyle_pose* X_FM, condyle_body body,
                                                              double* gaps_mm, size_t count);
 
+/// The same along circles about a line of F, which goes through a point, in mm, along a direction of any length but zero: the
+/// angle by which a vertex must rotate, degrees, and its arc, mm; either array may be NULL. Minus infinite inside if no rotation frees it.
+CONDYLE_API condyle_status condyle_joint_contact_arc_gaps(const condyle_joint_contact* contact,
+                                                          const condyle_pose* X_FM,
+                                                          const double axis_point_mm[3],
+                                                          const double axis_direction[3], condyle_body body,
+                                                          double* gaps_deg, double* gaps_mm, size_t count);
+
 /// Values of `state` and `direction` below.
 enum { CONDYLE_ON_SURFACE = 1, CONDYLE_INSIDE = 2 };
 enum { CONDYLE_TOWARDS_CENTRE = 0, CONDYLE_AWAY_FROM_CENTRE = 1 };

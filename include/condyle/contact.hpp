@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "condyle/angle.hpp"
@@ -25,6 +26,14 @@ class BodyPair;
 struct ChosenVertices;
 struct MovedVertices;
 struct ChosenArcs;
+/// A line of F about which the mobile body rotates.
+struct AxisLine {
+  Vec3 direction;             ///< of any length but zero
+  Vec3 point = Vec3::Zero();  ///< on it, mm; default: the joint centre
+};
+/// What arcs go about: the axis that an angle of the joint has at the pose, through the joint centre, or a line.
+using ArcsAbout = std::variant<JointAngle, AxisLine>;
+
 [[nodiscard]] ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
                                  const ChosenVertices& vertices);
 /// A triangle of the fixed and one of the mobile body that share a point.
@@ -103,6 +112,11 @@ class JointContact {
   /// the body's own frame.
   [[nodiscard]] TangentialContact tangential(
       const Pose& X_FM, const Vec3& axis_F,
+      tangential::TangentialRule rule = tangential::TangentialRule::alternating) const;
+  /// The same about a line of F wherever it is. It stays in F whatever the pose: the mobile vertices are where the pose has put
+  /// them, translated or not.
+  [[nodiscard]] TangentialContact tangential(
+      const Pose& X_FM, const AxisLine& axis,
       tangential::TangentialRule rule = tangential::TangentialRule::alternating) const;
 
   /// The exact set of intersecting triangle pairs, ascending.

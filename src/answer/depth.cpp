@@ -40,9 +40,13 @@ void add_ray_depths(DepthAnswer& answer, const contact::JointContact& bodies, co
 
 void add_arc_depths(DepthAnswer& answer, const contact::JointContact& bodies, const Joint& joint) {
   const DepthRequest& request = answer.request;
-  const JointAngle about = request.about.value_or(JointAngle::flexion);
-  ArcDepths depths{{about, axis_of(about, joint.coordinates(), *request.pose)}, {}};
-  depths.contact = bodies.tangential(request.X_FM, depths.axis.direction_F);
+  const contact::ArcsAbout about = request.about.value_or(JointAngle::flexion);
+  const contact::AxisLine line = line_of(about, joint.coordinates(), *request.pose);
+  ArcDepths depths{{{}, line.direction, line.point}, bodies.tangential(request.X_FM, line)};
+  if (const auto* angle = std::get_if<JointAngle>(&about))
+    depths.axis.about = *angle;
+  else
+    depths.axis.direction_F = AxisFrame(line.point, line.direction).direction();
   add_measures(answer, bodies, contact::MeasuredContact(depths.contact));
   answer.depths = std::move(depths);
 }
@@ -108,15 +112,23 @@ bool DepthAnswer::in_contact() const noexcept {
   return std::visit(read, depths);
 }
 
+contact::AxisLine line_of(const contact::ArcsAbout& about, const CoordinateSystem& system,
+                          const JointAngles& at) {
+  if (const auto* line = std::get_if<contact::AxisLine>(&about)) return *line;
+  return {axis_of(std::get<JointAngle>(about), system, at)};
+}
+
 void check_depth_request(const Joint& joint, const DepthRequest& request) {
   if (request.about && request.method != DepthMethod::tangential)
     throw UsageError("about: is for method tangential");
   if ((request.casting || request.rays) && request.method != DepthMethod::normal)
     throw UsageError("casting, rule, reach: are for method normal");
-  if (request.method == DepthMethod::tangential && translates(request))
+  const auto* line = request.about ? std::get_if<contact::AxisLine>(&*request.about) : nullptr;
+  if (line) static_cast<void>(AxisFrame(line->point, line->direction));
+  if (request.method == DepthMethod::tangential && !line && translates(request))
     throw UsageError(
         core::formatted("method tangential: turns about the joint centre, and the pose is translated from it "
-                        "by %.3f mm; method radial answers there",
+                        "by %.3f mm; method radial answers there, or arcs about a line",
                         request.X_FM.translation().norm()));
   if (!request.pose) return;
   const Eigen::Matrix3d difference =

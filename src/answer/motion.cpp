@@ -212,6 +212,11 @@ std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
       request.casting, control);
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
+  if (request.screws) {
+    auto screws = motion::screws_along(bodies, answer.frames, control);
+    if (!screws) return std::nullopt;
+    answer.screws = std::move(*screws);
+  }
   if (request.limits) answer.standings = standings_of(request, answer.frames);
   motion::add_new(answer.notes, motion::check_motion(answer.frames, request.names));
   answer.speeds_from = speeds_from(request);

@@ -155,11 +155,14 @@ struct JointContact::Parts {
   const BodyPair& bodies() const {
     return *trees.get([&](std::optional<BodyPair>& pair) { pair.emplace(fixed->mesh(), mobile->mesh()); });
   }
-  std::shared_ptr<const tangential::RingTable> fixed_rings(const Vec3& axis_F) const {
-    return fixed->ring_table(Vec3::Zero(), axis_F);
+  std::shared_ptr<const tangential::RingTable> fixed_rings(const AxisLine& axis) const {
+    return fixed->ring_table(axis.point, axis.direction);
   }
-  std::shared_ptr<const tangential::RingTable> mobile_rings(const Pose& X_MF, const Vec3& axis_F) const {
-    return mobile->ring_table(X_MF.translation(), core::turned(X_MF, axis_F));
+  std::shared_ptr<const tangential::RingTable> mobile_rings(const Pose& X_MF, const AxisLine& axis) const {
+    // To the bit, without the signs of zeros that products would add.
+    const bool through_centre = axis.point == Vec3::Zero();
+    return mobile->ring_table(through_centre ? Vec3(X_MF.translation()) : posed(X_MF, axis.point),
+                              core::turned(X_MF, axis.direction));
   }
 };
 
@@ -256,14 +259,18 @@ RadialContact JointContact::radial(const Pose& X_FM) const {
 
 TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
                                            tangential::TangentialRule rule) const {
+  return tangential(X_FM, AxisLine{axis_F}, rule);
+}
+
+TangentialContact JointContact::tangential(const Pose& X_FM, const AxisLine& axis,
+                                           tangential::TangentialRule rule) const {
   core::require_rotation(X_FM);
   TangentialContact contact;
   if (fixed().is_closed())
-    contact.mobile_in_fixed = parts_->fixed_rings(axis_F)->query(posed(X_FM, mobile().vertices()), rule);
+    contact.mobile_in_fixed = parts_->fixed_rings(axis)->query(posed(X_FM, mobile().vertices()), rule);
   if (mobile().is_closed()) {
     const Pose X_MF = inverted(X_FM);
-    contact.fixed_in_mobile =
-        parts_->mobile_rings(X_MF, axis_F)->query(posed(X_MF, fixed().vertices()), rule);
+    contact.fixed_in_mobile = parts_->mobile_rings(X_MF, axis)->query(posed(X_MF, fixed().vertices()), rule);
   }
   contact.pairs = pairs(X_FM);
   contact.in_contact = any_contact(contact);
@@ -282,11 +289,11 @@ ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis
   ChosenArcs arcs;
   if (!vertices.mobile.empty())
     arcs.mobile =
-        joint.parts_->fixed_rings(axis_F)->query(posed(X_FM, chosen(joint.mobile(), vertices.mobile)));
+        joint.parts_->fixed_rings({axis_F})->query(posed(X_FM, chosen(joint.mobile(), vertices.mobile)));
   if (!vertices.fixed.empty()) {
     const Pose X_MF = inverted(X_FM);
     arcs.fixed =
-        joint.parts_->mobile_rings(X_MF, axis_F)->query(posed(X_MF, chosen(joint.fixed(), vertices.fixed)));
+        joint.parts_->mobile_rings(X_MF, {axis_F})->query(posed(X_MF, chosen(joint.fixed(), vertices.fixed)));
   }
   return arcs;
 }

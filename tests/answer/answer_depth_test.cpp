@@ -94,9 +94,9 @@ TEST_F(DepthAnswers, SummariesWithKnownDistancesAreTheSame) {
 }
 
 TEST_F(DepthAnswers, AlongArcsAreAboutTheAxisRequested) {
-  const auto about = [&](std::optional<JointAngle> angle) {
+  const auto about = [&](std::optional<contact::ArcsAbout> axis) {
     const DepthAnswer answer = answer_depth(
-        bodies, joint, {.X_FM = X_FM, .pose = pose, .method = DepthMethod::tangential, .about = angle});
+        bodies, joint, {.X_FM = X_FM, .pose = pose, .method = DepthMethod::tangential, .about = axis});
     return std::get<ArcDepths>(answer.depths);
   };
   EXPECT_EQ(about({}).axis.about, JointAngle::flexion);
@@ -136,6 +136,11 @@ TEST_F(DepthAnswers, SayThatABodyWasTranslated) {
   EXPECT_NE(caveats(DepthMethod::reliable).front().find("no depths along arcs"), std::string::npos);
   EXPECT_EQ(caveats(DepthMethod::radial).front().find("no depths along arcs"), std::string::npos);
   EXPECT_THROW(caveats(DepthMethod::tangential), UsageError);
+  const contact::AxisLine line{{0, 0, -4}, {3, -5, 7}};
+  const DepthRequest about_line{.X_FM = moved, .method = DepthMethod::tangential, .about = line};
+  const auto arcs = std::get<ArcDepths>(answer_depth(bodies, joint, about_line).depths);
+  EXPECT_EQ(arcs.axis.direction_F, Vec3(0, 0, -1));
+  EXPECT_EQ(arcs.contact.mobile_in_fixed, bodies.tangential(moved, line).mobile_in_fixed);
 }
 
 TEST_F(DepthAnswers, RefuseOptionsOfAnotherMethod) {

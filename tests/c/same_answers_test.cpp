@@ -72,7 +72,7 @@ TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
   EXPECT_GT(free_poses, 0u);
 }
 
-TEST(CInterface, GivesTheRadialGapsOfCpp) {
+TEST(CInterface, GivesTheGapsOfCpp) {
   const contact::JointContact cpp(hip().hip_bone, hip().femur);
   const auto c = c_contact(hip().hip_bone, hip().femur);
   std::vector<double> mobile(hip().femur.vertices.size()), fixed(hip().hip_bone.vertices.size());
@@ -85,6 +85,14 @@ TEST(CInterface, GivesTheRadialGapsOfCpp) {
     EXPECT_EQ(mobile, expected.mobile_in_fixed->radial_gap_mm);
     EXPECT_EQ(fixed, expected.fixed_in_mobile->radial_gap_mm);
   }
+  const contact::AxisLine line{{1, -2, 3}, {5, -40, 7}};
+  const condyle_pose last = c_pose(poses().back());
+  std::vector<double> deg(mobile.size());
+  ASSERT_OK(condyle_joint_contact_arc_gaps(c.get(), &last, line.point.data(), line.direction.data(),
+                                           CONDYLE_MOBILE, deg.data(), mobile.data(), mobile.size()));
+  const auto arcs = cpp.tangential(poses().back(), line).mobile_in_fixed;
+  EXPECT_EQ(mobile, arcs->arc_gap_mm);
+  for (std::size_t v = 0; v < deg.size(); ++v) EXPECT_EQ(deg[v], arcs->angular_gap[v].degrees());
 }
 
 TEST(CInterface, SaysThatAnOpenBodyHasNoInside) {

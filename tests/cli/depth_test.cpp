@@ -190,6 +190,28 @@ TEST_F(SampleJointCommand, TheTangentialMethodGivesAnglesAndArcs) {
   }
 }
 
+TEST_F(SampleJointCommand, ArcsGoAboutAnyAxis) {
+  const auto arguments = [&](const std::string& about) {
+    return fmt::format("depth sample/hip.toml --method tangential --about \"{}\" {}", about, deep);
+  };
+  const Json angle = answer(arguments("flexion")), same = answer(arguments("0 0 2")),
+             other = answer(arguments("-0.6,0,+0.8 5 -40 1e1"));
+  EXPECT_TRUE(same["about"].is_null());
+  for (const char* key : {"axis", "axis_point_mm", "max_tangential_depth_deg", "min_gap_mm", "bodies"})
+    EXPECT_EQ(same[key], angle[key]) << key;
+  EXPECT_EQ(other["axis"], (Json{-0.6, 0.0, 0.8}));
+  EXPECT_EQ(other["axis_point_mm"], (Json{5.0, -40.0, 10.0}));
+  EXPECT_NE(other["max_tangential_depth_mm"], angle["max_tangential_depth_mm"]);
+  EXPECT_TRUE(
+      says(run(arguments("0 0 1 5 0 0")).out, "along the arc of the axis (0, 0, 1) through (5, 0, 0) mm"));
+
+  expect_refused(2, arguments("0 0 0"), "joint axis: its direction is zero");
+  expect_refused(2, arguments("0 1"), "about: an axis has 3 numbers, or 6 with a point of it in mm, not 2");
+  expect_refused(2, arguments("0 inf 1"), "about: 'inf' in the axis is not a finite number");
+  expect_refused(2, "picture sample/hip.toml --colour gap --about flexion --out gap.png",
+                 "about: is for the colours of depths");
+}
+
 TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
   const Json json = CommandTest::answer(std::string("depth sample/hip.toml --out deep ") + deep);
   EXPECT_EQ(json_of("deep/depth.json"), json);

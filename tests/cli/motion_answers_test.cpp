@@ -212,6 +212,25 @@ TEST_F(Motion, WithoutContactReportsTheSmallestGap) {
   EXPECT_FALSE(says(run("motion shank.toml --motion on.csv").out, "smallest gap"));
 }
 
+/// About a held centre a step's screw is the axis of the angle that changes.
+TEST_F(Motion, DepthsAboutScrewsAreThoseAboutTheAxesOfTheSteps) {
+  write("swing.csv", "time,flexion_deg\n0,20\n1,26\n2,31\n3,31\n4,\n5,30\n");
+  const Ran text = done("motion shank.toml --motion swing.csv --screws --out out");
+  const Json depth = answer("depth shank.toml --method tangential --pose flexion=31"),
+             screws = json_of("out/motion.json")["screws"];
+  EXPECT_TRUE(says(
+      text.out,
+      fmt::format("  largest arc about the screw of a step {:.4g} mm at 2 s\n  1 slide without an axis\n",
+                  depth["max_tangential_depth_mm"].get<double>())));
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  const auto value = [&](std::size_t row, const char* name) { return curves.rows[row][curves.column(name)]; };
+  EXPECT_NEAR(value(2, "screw_depth_deg"), depth["max_tangential_depth_deg"], 1e-11);
+  EXPECT_EQ(screws["largest_depth_mm"], (Json{{"value", value(2, "screw_depth_mm")}, {"time_s", 2.0}}));
+  EXPECT_EQ(screws["slides"], 1);
+  EXPECT_TRUE(value(3, "screw_is_slide") == 1 && std::isnan(value(3, "screw_depth_mm")));
+  EXPECT_TRUE(answer("motion shank.toml --motion swing.csv")["screws"].is_null());
+}
+
 TEST_F(Motion, AnswersNameThePartThatTouches) {
   const TriMesh bone = box({-5, 100, -5}, {5, 110, 5});
   io::write_mesh(folder / "bone.ply", bone);

@@ -55,5 +55,19 @@ TEST(PictureValues, OfDepthsMeasureHowFarOutsideOnlyBesideTheInside) {
   EXPECT_LT(measured, near.size() / 2);
 }
 
+TEST(PictureValues, OfArcsAreAboutTheirAxis) {
+  const Joint joint = ball_in_socket();
+  const contact::AxisLine axis{{0.2, 0, 1}, {-4, 9, 0}};
+  const auto arcs = contact::JointContact(joint).tangential(X_FM, axis).mobile_in_fixed;
+  const auto values = io::surface_values(io::PictureColour::depth, joint, {}, X_FM, axis).mobile;
+  for (std::size_t v = 0; v < values.mm.size(); ++v) {
+    const bool is_inside = arcs->state[v] == PointState::inside,
+               is_freed = std::isfinite(arcs->arc_gap_mm[v]);
+    EXPECT_EQ(values.is_bound[v] != 0, is_inside && !is_freed) << v;
+    EXPECT_EQ(values.mm[v], !is_inside ? 0 : is_freed ? -arcs->arc_gap_mm[v] : -values.outside[v]) << v;
+  }
+  EXPECT_GT(*std::max_element(values.mm.begin(), values.mm.end()), 1);
+}
+
 }  // namespace
 }  // namespace condyle::test

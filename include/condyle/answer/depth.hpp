@@ -38,8 +38,8 @@ struct DepthRequest {
   /// The angles that X_FM was made of, about whose axes arcs go; default: those that it has, which rounding may change.
   std::optional<JointAngles> pose = {};
   DepthMethod method = DepthMethod::reliable;
-  /// With DepthMethod::tangential the angle about whose axis arcs go; default: flexion.
-  std::optional<JointAngle> about = {};
+  /// With DepthMethod::tangential; default: flexion. Angles are for poses that do not translate, lines for any.
+  std::optional<contact::ArcsAbout> about = {};
   /// With DepthMethod::normal the body whose triangles cast, and how; defaults: both, NormalDepthOptions{}.
   std::optional<contact::Casting> casting = {};
   std::optional<contact::NormalDepthOptions> rays = {};
@@ -57,10 +57,11 @@ struct RayDepths {
   contact::ReliableContact reliable;
 };
 
-/// A rotation axis, by its joint angle and as a direction in F.
+/// A rotation axis, by its joint angle if it is that of one, and as a line of F.
 struct RotationAxis {
-  JointAngle about;
-  Vec3 direction_F;
+  std::optional<JointAngle> about;
+  Vec3 direction_F;  ///< of unit length
+  Vec3 point_F;
 };
 
 /// DepthMethod::tangential: every vertex along its circle.
@@ -92,7 +93,12 @@ struct DepthAnswer {
   [[nodiscard]] bool in_contact() const noexcept;
 };
 
-/// Throws UsageError for options of another method, arcs at a pose that translates, and angles that are not those of X_FM.
+/// The line of an angle at a pose with these angles; that of a line is itself.
+[[nodiscard]] contact::AxisLine line_of(const contact::ArcsAbout& about, const CoordinateSystem& system,
+                                        const JointAngles& at);
+
+/// Throws UsageError for options of another method, arcs about an angle's axis at a pose that translates, a line without a direction,
+/// and angles that are not those of X_FM.
 void check_depth_request(const Joint& joint, const DepthRequest& request);
 
 /// Depths at one pose. `bodies` are those of `joint`, and keep their tables for the next pose: the first call builds them, later

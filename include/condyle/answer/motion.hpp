@@ -56,6 +56,8 @@ struct MotionRequest {
   /// Always: how far each frame is from the nearest limit, some 10 ms a frame.
   PoseStanding::FindNearest nearest_limits = PoseStanding::FindNearest::at_limits;
 
+  bool screws = false;  ///< depths about the screw of the step into each frame: screws_along()
+
   [[nodiscard]] bool has_load() const noexcept { return load || !loads.empty(); }
 };
 
@@ -75,6 +77,7 @@ struct MotionAnswer {
   std::vector<std::optional<PoseStanding>> standings = {};  ///< of the frames, if limits are given
   std::vector<LigamentAlong> ligaments = {};  ///< in the poses of the frames, balanced if a load was
   SpeedsFrom speeds_from = SpeedsFrom::none;
+  std::vector<std::optional<motion::ScrewStep>> screws = {};  ///< if requested
   std::vector<motion::ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion
   std::vector<std::string> caveats = {};        ///< with pressure: what an elastic foundation leaves out
 };
@@ -84,7 +87,7 @@ struct MotionAnswer {
 void check_motion_request(const MotionRequest& request);
 
 /// Contact along a motion, with pressure if there are layers; empty if it was stopped. Stages: "balanced frames", "segments between
-/// samples", "frames".
+/// samples", "frames", "steps".
 ///
 /// Throws UsageError as check_motion_request(), balance_along() and contact_between(), MeshError as contact_along().
 [[nodiscard]] std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/contact.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 
@@ -61,6 +62,8 @@ struct PictureMark {
 struct PictureOptions {
   ViewDirection view = {};
   PictureColour colour = PictureColour::depth;
+  /// Depths are along arcs about this, whatever their rays are; UsageError with other colours.
+  std::optional<contact::ArcsAbout> about = {};
   /// Where depths are shown and both are solid, the outer one is drawn as glass: they would be hidden.
   BodyStyle fixed = BodyStyle::solid, mobile = BodyStyle::solid;
   std::size_t width = 1200, height = 900;  ///< pixels, 64 to 8192

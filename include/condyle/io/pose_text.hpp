@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/contact.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_coordinates.hpp"
 
@@ -57,6 +58,10 @@ struct PoseArgument {
 
 /// The pose as parse_pose() reads it, every digit of it: "flexion=90 adduction=-10 internal_rotation=20".
 [[nodiscard]] std::string to_text(const PoseDegrees& pose, Anatomy joint);
+
+/// What arcs go about: the name of an angle of the joint, three numbers for an axis through the joint centre, or six, the last three
+/// a point of it in mm; both in F, separated by blanks or commas. Throws UsageError for anything else.
+[[nodiscard]] contact::ArcsAbout arcs_about(std::string_view text, Anatomy joint);
 
 /// The joint's angle of that name; throws UsageError that lists the valid names.
 [[nodiscard]] JointAngle joint_angle_named(std::string_view name, Anatomy joint);

@@ -71,14 +71,20 @@ void for_each_word(std::string_view text, const Word& word) {
   }
 }
 
-PoseArgument pose_of_matrix(std::string_view text) {
-  std::vector<double> m;
+/// `in` names where they stand, as in "pose: X in the matrix is not a finite number".
+std::vector<double> finite_numbers(std::string_view text, std::string_view of, std::string_view in) {
+  std::vector<double> numbers;
   for_each_word(text, [&](std::string_view word) {
     const auto value = number_from(word);
     if (!value || !std::isfinite(*value))
-      throw UsageError(fmt::format("pose: {} in the matrix is not a finite number", io::in_quotes(word)));
-    m.push_back(*value);
+      throw UsageError(fmt::format("{}: {} in the {} is not a finite number", of, io::in_quotes(word), in));
+    numbers.push_back(*value);
   });
+  return numbers;
+}
+
+PoseArgument pose_of_matrix(std::string_view text) {
+  const std::vector<double> m = finite_numbers(text, "pose", "matrix");
   if (m.size() != 16)
     throw UsageError(fmt::format("pose: a matrix has 16 numbers, row by row, not {}", m.size()));
   std::array<double, 16> rows;
@@ -174,6 +180,15 @@ std::string to_text(const PoseDegrees& pose, Anatomy joint) {
     text += fmt::format(" x={} y={} z={}", pose.translation_mm.x(), pose.translation_mm.y(),
                         pose.translation_mm.z());
   return text;
+}
+
+contact::ArcsAbout arcs_about(std::string_view text, Anatomy joint) {
+  if (!is_matrix(text)) return joint_angle_named(text, joint);
+  const std::vector<double> n = finite_numbers(text, "about", "axis");
+  if (n.size() != 3 && n.size() != 6)
+    throw UsageError(
+        fmt::format("about: an axis has 3 numbers, or 6 with a point of it in mm, not {}", n.size()));
+  return contact::AxisLine{{n[0], n[1], n[2]}, n.size() == 3 ? Vec3(Vec3::Zero()) : Vec3(n[3], n[4], n[5])};
 }
 
 JointAngle joint_angle_named(std::string_view name, Anatomy joint) {

@@ -45,10 +45,11 @@ void fill_framed(Picture& picture, double left, double right, double top, double
   fill(picture, left, right, top, bottom, colour_at);
 }
 
-std::string words_of(PictureColour colour) {
-  return colour == PictureColour::depth ? "depth, mm"
-         : colour == PictureColour::gap ? "gap along rays, mm"
-                                        : "nearest distance, mm";
+std::string words_of(const PictureOptions& options) {
+  return options.about                            ? "depth along arcs, mm"
+         : options.colour == PictureColour::depth ? "depth, mm"
+         : options.colour == PictureColour::gap   ? "gap along rays, mm"
+                                                  : "nearest distance, mm";
 }
 
 std::size_t scale_height(const PictureOptions& options) noexcept {
@@ -126,7 +127,7 @@ void draw_scale(Picture& picture, const PictureOptions& options, const ColourSca
   if (low < 0) add_tick(low);
   add_tick(0);
   add_tick(high);
-  text.add(words_of(options.colour), left_end - 1.2 * size, beside, size, Alignment::right);
+  text.add(words_of(options), left_end - 1.2 * size, beside, size, Alignment::right);
   if (options.colour == PictureColour::depth) {
     const double swatch = std::round(right_end + 2 * size), end = std::round(swatch + 2 * size);
     fill_framed(picture, swatch, end, top, bottom, hatching);

@@ -320,7 +320,7 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, 
   io::check(options);
   for (PictureMark& mark : io::ligament_marks(joint.ligaments, X_FM))
     options.marks.push_back(std::move(mark));
-  const BothValues values = io::surface_values(options.colour, joint, at, X_FM);
+  const BothValues values = io::surface_values(options.colour, joint, at, X_FM, options.about);
   const ColourScale scale{options.colour,
                           options.range_mm                         ? *options.range_mm
                           : options.colour == PictureColour::depth ? io::range_of_depths(values)

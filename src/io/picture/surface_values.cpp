@@ -1,9 +1,11 @@
 #include "io/picture/surface_values.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "condyle/answer.hpp"
+#include "condyle/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/require_solid.hpp"
 #include "mesh/surface_distance.hpp"
@@ -26,9 +28,10 @@ constexpr double somewhere_outside_mm = 1;
 
 /// The distance of each vertex to the other body's surface, below zero inside. `distances` has those of vertices inside, `X` takes vertices
 /// into the other body's frame.
+template <class Results>
 std::vector<double> signed_distances(const Mesh& mesh, const Mesh& other, const Pose& X,
-                                     const std::optional<radial::RadialResults>& results,
-                                     PictureColour colour, std::vector<double> distances) {
+                                     const std::optional<Results>& results, PictureColour colour,
+                                     std::vector<double> distances) {
   const std::vector<char> is_beside = colour == PictureColour::depth
                                           ? beside_the_inside(mesh.arrays(), results->state)
                                           : std::vector<char>(distances.size(), 1);
@@ -53,9 +56,24 @@ SurfaceValues depths_of(std::optional<contact::ReliableDepths> depths, std::vect
   return values;
 }
 
+/// Where no arc frees a vertex inside its nearest distance is a bound.
+SurfaceValues arcs_of(const tangential::TangentialResults& results, std::vector<double> outside) {
+  SurfaceValues values{.mm = std::vector<double>(outside.size()),
+                       .outside = std::move(outside),
+                       .is_bound = std::vector<double>(results.size())};
+  for (std::size_t v = 0; v < results.size(); ++v) {
+    if (results.state[v] != PointState::inside) continue;
+    values.is_bound[v] = std::isfinite(results.arc_gap_mm[v]) ? 0 : 1;
+    values.mm[v] = values.is_bound[v] == 0 ? -results.arc_gap_mm[v] : -values.outside[v];
+  }
+  return values;
+}
+
 }  // namespace
 
-BothValues surface_values(PictureColour colour, const Joint& joint, const JointAngles& at, const Pose& X_FM) {
+BothValues surface_values(PictureColour colour, const Joint& joint, const JointAngles& at, const Pose& X_FM,
+                          const std::optional<contact::ArcsAbout>& about) {
+  if (about && colour != PictureColour::depth) throw UsageError("about: is for the colours of depths");
   if (colour == PictureColour::none) return {};
   if (colour != PictureColour::nearest) {
     mesh::require_solid(joint.fixed.mesh, joint.fixed.name);
@@ -68,15 +86,26 @@ BothValues surface_values(PictureColour colour, const Joint& joint, const JointA
         .fixed = {.mm = std::move(contact.fixed_in_mobile->radial_gap_mm), .outside = {}, .is_bound = {}},
         .mobile = {.mm = std::move(contact.mobile_in_fixed->radial_gap_mm), .outside = {}, .is_bound = {}}};
   }
-  const DepthMethod method = colour == PictureColour::nearest ? DepthMethod::radial : DepthMethod::reliable;
+  const DepthMethod method = colour == PictureColour::nearest ? DepthMethod::radial
+                             : about                          ? DepthMethod::tangential
+                                                              : DepthMethod::reliable;
   DepthAnswer answer = answer_depth(
-      bodies, joint, {.X_FM = X_FM, .pose = at, .method = method, .measures = MeasuresOf::distances_only});
-  auto& [contact, reliable] = std::get<RayDepths>(answer.depths);
+      bodies, joint,
+      {.X_FM = X_FM, .pose = at, .method = method, .about = about, .measures = MeasuresOf::distances_only});
   contact::NearestDistances& distances = answer.measures.distances;
-  auto of_fixed = signed_distances(joint.fixed.mesh, joint.mobile.mesh, inverted(X_FM),
-                                   contact.fixed_in_mobile, colour, std::move(distances.fixed));
-  auto of_mobile = signed_distances(joint.mobile.mesh, joint.fixed.mesh, X_FM, contact.mobile_in_fixed,
-                                    colour, std::move(distances.mobile));
+  const auto outside = [&](const auto& contact) {
+    return std::pair(signed_distances(joint.fixed.mesh, joint.mobile.mesh, inverted(X_FM),
+                                      contact.fixed_in_mobile, colour, std::move(distances.fixed)),
+                     signed_distances(joint.mobile.mesh, joint.fixed.mesh, X_FM, contact.mobile_in_fixed,
+                                      colour, std::move(distances.mobile)));
+  };
+  if (const auto* arcs = std::get_if<ArcDepths>(&answer.depths)) {
+    auto [of_fixed, of_mobile] = outside(arcs->contact);
+    return {.fixed = arcs_of(*arcs->contact.fixed_in_mobile, std::move(of_fixed)),
+            .mobile = arcs_of(*arcs->contact.mobile_in_fixed, std::move(of_mobile))};
+  }
+  auto& [contact, reliable] = std::get<RayDepths>(answer.depths);
+  auto [of_fixed, of_mobile] = outside(contact);
   if (colour == PictureColour::nearest)
     return {.fixed = {.mm = std::move(of_fixed), .outside = {}, .is_bound = {}},
             .mobile = {.mm = std::move(of_mobile), .outside = {}, .is_bound = {}}};

@@ -21,8 +21,9 @@ struct BothValues {
   SurfaceValues fixed, mobile;
 };
 
-/// Values of every vertex at this pose. Throws MeshError if a depth or a gap is requested of an open mesh; nearest
+/// Values of every vertex at this pose, depths along arcs if `about` is given. Throws MeshError if a depth or a gap is requested of an open mesh; nearest
 /// distances of vertices that cannot be inside are above 0.
-BothValues surface_values(PictureColour colour, const Joint& joint, const JointAngles& at, const Pose& X_FM);
+BothValues surface_values(PictureColour colour, const Joint& joint, const JointAngles& at, const Pose& X_FM,
+                          const std::optional<contact::ArcsAbout>& about = {});
 
 }  // namespace condyle::io

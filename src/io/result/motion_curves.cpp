@@ -157,6 +157,19 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
     if (question.to_limits)
       columns.add("to_limit_deg", answer.standings, [](const PoseStanding& at) { return at.to_limit_deg(); });
   }
+  if (!answer.screws.empty()) {
+    const auto& steps = answer.screws;
+    const contact::AxisLine none{Vec3::Constant(nothing), Vec3::Constant(nothing)};
+    columns.add("screw_rotation_deg", steps, [](const auto& of) { return of.rotation.degrees(); });
+    columns.add("screw_is_slide", steps, [](const auto& of) { return of.is_slide() ? 1.0 : 0.0; });
+    columns.add_vector("screw_axis", "", steps,
+                       [&](const auto& of) { return of.axis.value_or(none).direction; });
+    columns.add_vector("screw_point", "_mm", steps,
+                       [&](const auto& of) { return of.axis.value_or(none).point; });
+    columns.add("screw_depth_deg", steps,
+                [](const auto& of) { return of.depth ? of.depth->degrees() : nothing; });
+    columns.add("screw_depth_mm", steps, [](const auto& of) { return of.depth_mm.value_or(nothing); });
+  }
   columns.add("oblique_area_mm2", frames, [](const auto& f) { return f.surface.oblique_area_mm2; });
   const Joint& joint = question.joint.joint;
   const std::vector<CoordinateName> coordinates = io::coordinate_names_of(joint.kind, joint.anatomy);

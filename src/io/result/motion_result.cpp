@@ -33,6 +33,8 @@ struct Summary {
     const motion::FrameContact* frame = nullptr;  ///< none if no frame has a value
   };
   Largest area, depth, pressure, force;
+  std::size_t screws = 0, slides = 0;  ///< steps with and without an axis
+  Largest screw_deg, screw_mm;
   Largest nearest;  ///< the smallest gap
   /// How many judged frames are in each state, and which have the least clearance and are nearest to a limit.
   std::array<std::size_t, 6> states{};
@@ -79,6 +81,13 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     const bool both = question.contact.casting == contact::Casting::both;
     consider(summary.force,
              (both ? frame->on_mobile : contact::Wrench{totals.force_n, totals.moment_nmm}).force_n.norm());
+    if (answer.screws.empty() || !answer.screws[i]) continue;
+    const motion::ScrewStep& step = *answer.screws[i];
+    if (step.is_slide()) ++summary.slides;
+    if (!step.axis) continue;
+    ++summary.screws;
+    consider(summary.screw_deg, step.depth->degrees());
+    consider(summary.screw_mm, *step.depth_mm);
   }
   return summary;
 }
@@ -295,6 +304,10 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   }
   if (!answer.ligaments.empty()) text += most_strained_text(answer, times);
   if (answer.between) text += between_text(*answer.between);
+  line("angle about the screw of a step", summary.screw_deg, "deg");
+  line("arc about the screw of a step", summary.screw_mm, "mm");
+  if (summary.slides > 0)
+    text += fmt::format("  {} without an axis\n", core::counted(summary.slides, "slide", "slides"));
   if (!answer.balanced.empty()) {
     text += fmt::format("  the load is balanced in {} of {} frames", summary.balanced,
                         summary.frames - summary.gaps);
@@ -400,6 +413,12 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
                          {"reason", of.reason}});
     json["without_balance"] = without;
   }
+  json["screws"] = answer.screws.empty() ? Json(nullptr)
+                                         : Json{{"steps", summary.screws},
+                                                {"slides", summary.slides},
+                                                {"slide_below_deg", motion::slide_below_deg},
+                                                {"largest_depth_deg", largest(summary.screw_deg)},
+                                                {"largest_depth_mm", largest(summary.screw_mm)}};
   json["between_samples"] = answer.between ? between_json(question, *answer.between) : Json(nullptr);
   json["processing"] = question.motion.processing;
   json["notes"] = io::notes_json(question.notes, answer.notes);

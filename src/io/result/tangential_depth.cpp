@@ -47,6 +47,15 @@ Json body_json(const BodyView<contact::TangentialBodySummary>& view) {
           {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
 }
 
+/// "flexion", or a line, in the frame of the answer.
+std::string about_text(const DepthQuestion& question, const RotationAxis& axis) {
+  if (axis.about) return std::string(name_of(*axis.about, question.joint.anatomy));
+  const Vec3 along = question.frame().fixed_direction(axis.direction_F),
+             through = question.frame().fixed_point(axis.point_F);
+  return fmt::format("the axis ({:.4g}, {:.4g}, {:.4g}) through ({:.4g}, {:.4g}, {:.4g}) mm", along.x(),
+                     along.y(), along.z(), through.x(), through.y(), through.z());
+}
+
 std::string deepest_line(const char* what, std::string_view about, const Deepest& deepest) {
   return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, {}, {}\n", what,
                      deepest.vertex.depth_mm, about, deepest.vertex.depth.degrees(), deepest.vertex.vertex,
@@ -58,8 +67,9 @@ std::string arcs_json(const DepthQuestion& question, const DepthAnswer& answer, 
   const ArcViews bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
   Json json = io::depth_header(question, answer, "tangential");
-  json["about"] = name_of(axis.about, question.joint.anatomy);
+  json["about"] = axis.about ? Json(name_of(*axis.about, question.joint.anatomy)) : Json(nullptr);
   json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
+  json["axis_point_mm"] = io::numbers(question.frame().fixed_point(axis.point_F));
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
   io::add_measures(json, question, answer.measures);
   json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
@@ -76,7 +86,7 @@ std::string arcs_json(const DepthQuestion& question, const DepthAnswer& answer, 
 std::string arcs_text(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
   const auto& [axis, contact] = depths;
   const ArcViews bodies = views(question, contact);
-  const std::string_view about = name_of(axis.about, question.joint.anatomy);
+  const std::string about = about_text(question, axis);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
   const auto deepest = longest(bodies), furthest = largest(bodies);
   if (deepest) text += deepest_line("deepest", about, *deepest);

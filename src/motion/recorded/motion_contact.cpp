@@ -8,7 +8,9 @@
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
 #include "core/per_thread.hpp"
+#include "core/turned.hpp"
 #include "mesh/surface_to_surface.hpp"
+#include "motion/recorded/screw_motion.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -98,6 +100,30 @@ class SmallestGap {
   std::optional<Points> nearest_;
 };
 
+/// Of the vertices of one body in the frame of the other one, which is `solid`. The table is of one frame only: those that JointContact
+/// keeps are not lost for it.
+void add_depths(ScrewStep& step, const Mesh& solid, const AxisFrame& axis, PointsView vertices) {
+  if (!solid.is_closed()) return;
+  const auto summary = contact::summarise(tangential::RingTable(solid, axis).query(vertices));
+  if (summary.largest_angle) step.depth = std::max(*step.depth, summary.largest_angle->depth);
+  if (summary.deepest) step.depth_mm = std::max(*step.depth_mm, summary.deepest->depth_mm);
+}
+
+ScrewStep step_into(const FrameContact& frame, const Pose& before, const contact::JointContact& joint,
+                    double reach_mm) {
+  const ScrewMotion motion(before, frame.X_FM, reach_mm);
+  ScrewStep step{.rotation = motion.rotation()};
+  if (step.is_slide() || step.rotation > most_rotation) return step;
+  const contact::AxisLine axis = step.axis.emplace(contact::AxisLine{motion.axis(), motion.point()});
+  step.depth = Angle(), step.depth_mm = 0;
+  if (!frame.in_contact) return step;
+  const Pose X_MF = inverted(frame.X_FM);
+  add_depths(step, joint.fixed(), {axis.point, axis.direction}, posed(frame.X_FM, joint.mobile().vertices()));
+  add_depths(step, joint.mobile(), {posed(X_MF, axis.point), core::turned(X_MF, axis.direction)},
+             posed(X_MF, joint.fixed().vertices()));
+  return step;
+}
+
 }  // namespace
 
 std::optional<std::vector<std::optional<FrameContact>>> contact_along(
@@ -123,6 +149,25 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
   });
   if (progress.stopped()) return std::nullopt;
   return frames;
+}
+
+std::optional<std::vector<std::optional<ScrewStep>>> screws_along(
+    const contact::JointContact& joint, std::span<const std::optional<FrameContact>> frames,
+    const Control& control) {
+  if (!joint.fixed().is_closed() && !joint.mobile().is_closed())
+    throw UsageError("screws: arcs need an inside, and both surfaces are open");
+  const double reach_mm = reach_of(joint.mobile());
+  std::vector<std::optional<ScrewStep>> steps(frames.size());
+  ProgressCount progress(control, "steps", frames.size());
+  core::parallel_chunks(frames.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last && !progress.stopped(); ++i) {
+      if (i > 0 && frames[i - 1] && frames[i])
+        steps[i] = step_into(*frames[i], frames[i - 1]->X_FM, joint, reach_mm);
+      progress.one_done();
+    }
+  });
+  if (progress.stopped()) return std::nullopt;
+  return steps;
 }
 
 std::optional<std::vector<std::optional<contact::BalancedPose>>> balance_along(

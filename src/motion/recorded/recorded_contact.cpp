@@ -22,9 +22,6 @@ using motion::ScrewMotion;
 /// Entries of R^T R - 1 up to this: what is farther from a rotation was not meant as one.
 constexpr double rotation_tolerance = 1e-9;
 
-/// Past this the sense in which the body turned would hang on rounding and on noise.
-constexpr Angle most_rotation = Angle::degrees(179);
-
 bool is_rotation(const Eigen::Matrix3d& R) {
   const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   return off <= rotation_tolerance && R.determinant() > 0;  // false for what is not a number
@@ -47,12 +44,6 @@ void check_samples(std::span<const double> time_s, std::span<const Pose> X_FM,
     if (!X_FM[i].translation().allFinite()) refuse(i, "its translation is not finite");
     if (!is_rotation(X_FM[i].linear())) refuse(i, "its rotation is none");
   }
-}
-
-double reach_of(const Mesh& mesh) {
-  double reach = 0;
-  for (std::size_t v = 0; v < mesh.vertices().size(); ++v) reach = std::max(reach, mesh.vertices()[v].norm());
-  return reach;
 }
 
 /// Contact found between one sample and the next.

@@ -1,5 +1,6 @@
 #include "motion/recorded/screw_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/predicates.hpp"
@@ -13,6 +14,12 @@ namespace {
 constexpr double speed_slack = 1e-12;
 
 }  // namespace
+
+double reach_of(const Mesh& mesh) {
+  double reach = 0;
+  for (std::size_t v = 0; v < mesh.vertices().size(); ++v) reach = std::max(reach, mesh.vertices()[v].norm());
+  return reach;
+}
 
 /// The part of the origin's change D along the axis a is slide a; the rest, P, is the chord of a circle about the
 /// line, whose centre seen from the chord's middle is at (a x P) / (2 tan(rotation / 2)). So the origin starts at

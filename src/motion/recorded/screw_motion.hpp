@@ -1,10 +1,17 @@
 #pragma once
 
 #include "condyle/angle.hpp"
+#include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
 #include "motion/search/path_clearance.hpp"
 
 namespace condyle::motion {
+
+/// Past this the sense in which a body turned would hang on rounding and on noise.
+inline constexpr Angle most_rotation = Angle::degrees(179);
+
+/// The largest distance of a point of a mesh from its origin.
+double reach_of(const Mesh& mesh);
 
 /// From one pose to another by a screw motion: a rotation about one line of F together with a shift along it.
 ///
@@ -29,6 +36,8 @@ class ScrewMotion {
   Angle rotation() const noexcept { return Angle::radians(rotation_); }
   /// Unit direction in F; any where nothing turns.
   const Vec3& axis() const noexcept { return axis_; }
+  /// The point of the axis that is nearest to the origin's place at the end; where nothing turns that place.
+  Vec3 point() const { return from_.translation() + cosine_ + shift_; }
   /// Whether both poses have the same translation, so that the body rotates about its origin. Translations that differ
   /// by no more than placing a point rounds, 4 u (reach + |t|) in a coordinate, are the same.
   bool holds_origin() const noexcept { return holds_origin_; }
