@@ -271,7 +271,7 @@ test("the numbers say how they were found: bounds, bands, bearing contact, clini
   const { rom } = textOf("sample");
   const panel = page.locator("#panel-details");
   const text = await panel.textContent();
-  for (const wanted of ["free before it, in contact at it or past it by at most its error bound", `of ${rom.band.samples} displaced joints, seed ${rom.band.seed}`,
+  for (const wanted of ["free before it, in contact at it or past it by at most its error bound", `of ${rom.band.samples} varied joints, seed ${rom.band.seed}`,
     `centre ${rom.band.sigma.centre_mm} mm, axes ${rom.band.sigma.axes_deg}°, surfaces ${rom.band.sigma.surface_mm} mm`,
     "Contact of the bearing surface does not end a motion", `radius ${rom.bearing.head.radius_mm.toFixed(2)} mm`,
     `radius ${rom.bearing.socket.radius_mm.toFixed(2)} mm`, `reaches ${rom.bearing.margin_mm.toFixed(2)} mm`, "Clinical ranges: AAOS 1965", "right, ball joint",

@@ -12,10 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/answer/case.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
 #include "page_core.hpp"
 #include "page_edit.hpp"
+#include "page_joint.hpp"
 #include "page_ligaments.hpp"
 #include "page_pressure.hpp"
 
@@ -154,6 +156,21 @@ void answer_depth(CondyleJoint* joint, const double* question, const double X[16
     checked(condyle_nearest(joint, X, counted, nearest));
     for (const double value : nearest) answers << ' ' << bits(value);
   }
+  answers << '\n';
+}
+
+/// What the pose is to the limits; `limits` are those by which the command judges it.
+void answer_standing(CondyleJoint* joint, const motion::RangeOfMotion& limits, const double* question,
+                     const double X[16], std::ostream& answers) {
+  double standing[4];
+  const Vec3 held(question[3], question[4], question[5]);
+  checked(condyle_standing(joint, question, held.data(), standing));
+  const PoseState commands =
+      pose_standing(limits, angles_of(question), held, checked(condyle_in_contact(joint, X)) == 1).state;
+  if (static_cast<double>(commands) != standing[0])
+    throw std::runtime_error("the command says " + std::string(name_of(commands)) + " of a pose");
+  answers << "standing";
+  for (const double value : standing) answers << ' ' << value;
   answers << '\n';
 }
 
@@ -355,6 +372,7 @@ void answer_edits(const Scene& scene, const std::string& folder) {
 void answer(const Scene& scene, const std::string& folder) {
   CondyleJoint* joint = joint_of(scene);
   add_layers(joint, scene);
+  const auto limits = limits_of_poses(joint->joint);
   const std::size_t vertices[] = {scene.mobile.size() / 3, scene.fixed.size() / 3};
   std::ofstream answers(folder + "/answers.txt"), shown(folder + "/shown.bin", std::ios::binary);
   for (std::size_t i = 0; i < scene.questions.size() / 6; ++i) {
@@ -363,7 +381,10 @@ void answer(const Scene& scene, const std::string& folder) {
     constexpr std::size_t every = 50;  // distances of all vertices take long
     if (i % every == 0) answer_shown(joint, X, vertices, shown);
     constexpr std::size_t every_depth = 10;  // tables about the joint's axes are made for each
-    if (i % every_depth == 0) answer_depth(joint, &scene.questions[6 * i], X, answers);
+    if (i % every_depth == 0) {
+      answer_depth(joint, &scene.questions[6 * i], X, answers);
+      answer_standing(joint, *limits, &scene.questions[6 * i], X, answers);
+    }
   }
   for (const motion::Motion& motion : motion::hip_motions()) answer_limit(joint, motion, answers);
   answer_map(joint, answers);

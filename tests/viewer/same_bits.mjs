@@ -27,7 +27,7 @@ const equal = (native, page) => native.length === page.length && native.every((v
 
 const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(64), depth = core._malloc(128);
 const values = core._malloc(4 * Math.max(...vertexCount)), marks = core._malloc(Math.max(...vertexCount));
-const wrong = [];
+const wrong = [], states = new Set();
 const count = {
   answers: 0, poses: 0, depths: 0, limits: 0, penetrating: 0, shown: 0, coloured: 0, mapPoints: 0, intervals: 0,
 };
@@ -84,6 +84,12 @@ const answerers = {
     });
     if (!native.every((value, i) => [1, 2, 3].includes(i % 7) || Math.abs(value - page[i]) <= 1e-9)) wrong.push(`nearest of pose ${count.poses}: ${page} and not ${native}`);
   },
+  standing() {
+    checked(core._condyle_standing(joint, angles, translation, depth));
+    const said = Array.from(f64(depth, 4));
+    states.add(said[0]);
+    return said.join(" ");
+  },
   contact: () => `${checked(core._condyle_in_contact(joint, pose))}`,
   pairs() {
     const pairs = checked(core._condyle_pairs(joint, pose));
@@ -119,6 +125,6 @@ console.log(`${count.answers} answers, ${count.penetrating} penetrating vertices
   `vertices under pressure, ${count.mapPoints} points of a map with ${count.intervals} intervals, ` +
   `${count.poses} poses, ${count.limits} limits: ${wrong.length} wrong`);
 for (const text of wrong.slice(0, 5)) console.error(text);
-const complete = count.penetrating > 0 && count.coloured > 0 && count.limits === 12 && count.poses === 1000 && count.depths === 100 && count.mapPoints === 120 &&
+const complete = count.penetrating > 0 && count.coloured > 0 && count.limits === 12 && count.poses === 1000 && count.depths === 100 && count.mapPoints === 120 && states.size >= 2 &&
   shownAt === shownNatively.length;
 process.exit(wrong.length || !complete ? 1 : 0);

@@ -360,6 +360,24 @@ const double* condyle_intervals(const CondyleJoint* joint) {
   return joint->intervals.data();
 }
 
+int condyle_standing(CondyleJoint* joint, const double* angles_deg, const double* held_mm, double answer[4]) {
+  return guarded(-1, [&] {
+    const JointAngles at = angles_of(angles_deg);
+    const Vec3 held(held_mm[0], held_mm[1], held_mm[2]);
+    Pose X_FM = pose_at(joint->joint.coordinates(), at);
+    X_FM.translation() = held;
+    const PoseStanding standing =
+        pose_standing(range_of(*joint, held), at, Vec3::Zero(), joint->bodies.in_contact(X_FM),
+                      PoseStanding::FindNearest::at_limits);
+    const bool is_at_limit = standing.state == PoseState::at_limit;
+    answer[0] = static_cast<double>(standing.state);
+    answer[1] = is_at_limit ? static_cast<double>(standing.nearest->vary) : -1;
+    answer[2] = is_at_limit && standing.nearest->sense == RotationSense::positive;
+    answer[3] = is_at_limit && standing.nearest->end.reason == motion::LimitReason::ligament;
+    return 0;
+  });
+}
+
 int condyle_set_roles(CondyleJoint* joint, int count_bearing, const std::uint8_t* fixed,
                       const std::uint8_t* mobile) {
   return guarded(-1, [&] {

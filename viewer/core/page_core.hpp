@@ -82,6 +82,9 @@ int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* sta
 int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, const double* held_mm,
                         double back_deg, double forth_deg);
 const double* condyle_intervals(const CondyleJoint* joint);
+/// What a pose of these angles is to the limits of the body that keeps the translation `held_mm`, in F, as condyle::pose_standing() has it: in
+/// `answer` the number of its PoseState; the angle by which it is at a limit (or -1), 1 if at its positive end, and 1 if a ligament ends it.
+int condyle_standing(CondyleJoint* joint, const double* angles_deg, const double* held_mm, double answer[4]);
 /// How many triangles of the mobile body are its bearing surface, each marked 1 in `triangles`; 0 if none was found.
 int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles);
 }

@@ -102,7 +102,7 @@ export const normalRange = object({
   low: number, high: number, people: text, count: orNull(number), meaning: text, source: text,
 });
 
-/// A measure over displaced joints.
+/// A measure over varied joints.
 export const measureBand = object({
   p5: orNull(number), median: orNull(number), p95: orNull(number), samples_without_value: number,
 });

@@ -115,7 +115,7 @@ export function headlineMotion(text: ReportText): MotionAnswer | null {
   return worstOf(motions) ?? (rotation && ends(rotation) ? rotation : figures.find(ends) ?? motions[0] ?? null);
 }
 
-/// The band if it is informative: a motion that nothing ends in its range ends in few displaced joints either.
+/// The band if it is informative: a motion that nothing ends in its range ends in few varied joints either.
 export function shownBand({ band, reason }: MotionAnswer): Band | null {
   return band && (endsWithin(reason) || !band.text.startsWith(">")) ? band : null;
 }

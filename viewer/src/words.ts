@@ -330,7 +330,7 @@ export const words = {
   withinBand: "within the band",
   bandRuleShort: "Beyond the band: 5 to 95 % of the differences lie on one side of zero, by 0.05° or more.",
   bandRule:
-    "Beyond the band: 5 to 95 % of the differences between joints that are displaced alike, before and after, lie on one side of zero, by 0.05° or more. This " +
+    "Beyond the band: 5 to 95 % of the differences between joints that are varied alike, before and after, lie on one side of zero, by 0.05° or more. This " +
     "assumes that their errors are common, as for one image; for two images, compare both bands instead.",
   noLimitsBefore: (why: string) => `The joint before has no limits: ${why}`,
   notedBefore: "Notes from the checks on the joint before",
@@ -345,7 +345,7 @@ export const words = {
   gain: "gain",
   unitHead: "unit",
   blocked: (motion: string, planned: string, by: string, body: string) => `${motion} ends at ${planned}°: ${by} of ${body} is in the way`,
-  /// What a plan promises of a motion, and in how many displaced joints.
+  /// What a plan promises of a motion, and in how many varied joints.
   promised: (motion: string, said: string) => `${motion}: ${said.replaceAll(" deg", "°").replaceAll("mm3", "mm³")}`,
   keptBy: {
     bearing: "the bearing surface", depth: "bone too deep to remove", zone: "bone outside the permitted zone", marked: "bone marked to stay",
@@ -532,7 +532,7 @@ export const words = {
   bounded: "Limits are bounded, not exact, because the centre is not held: the joint is free up to each limit, and past it by its error bound in " +
     "contact, or nearer to contact than some micrometres.",
   bandsFrom: ({ samples, seed, centre_mm, axes_deg, surface_mm, surface_voxels, parameters }: BandSource) =>
-    `Bands: 5 to 95 % of ${samples} displaced joints, seed ${seed}; standard deviations: centre ${centre_mm} mm, axes ${axes_deg}°, ` +
+    `Bands: 5 to 95 % of ${samples} varied joints, seed ${seed}; standard deviations: centre ${centre_mm} mm, axes ${axes_deg}°, ` +
     `surfaces ${surface_voxels ? `${surface_voxels} voxels` : `${surface_mm} mm`}` +
     Object.entries(parameters ?? {}).map(([name, sigma]) => `, ${name} ${sigma}`).join("") + ".",
   notAsInFile: (changed: string) => `Changed from the joint file: ${changed}.`,

@@ -3,12 +3,13 @@ import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
   type JointArrays, type Layers, type LigamentShown, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations, type PosedArrays,
-  type Proposal, type Quantity, type Shown, type SideChoice, type Stroke, type Surface, type Turned, type Values,
+  type Proposal, type Quantity, type Shown, type SideChoice, type Standing, type Stroke, type Surface, type Turned, type Values,
 } from "./protocol";
 
 const poseBytes = 16 * 8;
 const atRest = [0, 0, 0] as const;
 const reasons = ["contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"] as const;
+const states = ["free", "at_limit", "bearing", "impinging", "strained", "contact"] as const;
 const kinds = ["unknown", "bearing", "impingement", "cut"] as const;
 
 /// A joint in the module's memory. Everything it answers is copied out of there.
@@ -96,6 +97,13 @@ export class CoreJoint {
     this.on(this.core._condyle_nearest, this.pose, counted ? 1 : 0, this.answer);
     const [distance_mm, fixed, mobile, isBearing, x, y, z] = this.f64(this.answer, 7) as unknown as [number, number, number, number, number, number, number];
     return { distance_mm, triangle: { fixed, mobile }, isBearing: isBearing === 1, point: [x, y, z] };
+  }
+
+  /// `held` in F, mm.
+  standing(angles: readonly number[], held: readonly number[]): Standing {
+    this.on(this.core._condyle_standing, angles, held, this.answer);
+    const [state, vary, isHigh, byLigament] = this.f64(this.answer, 4) as unknown as [number, number, number, number];
+    return { is: states[state]!, vary, isHigh: isHigh === 1, byLigament: byLigament === 1 };
   }
 
   limit({ start, held, vary, positive, range_deg }: LimitQuestion): LiveLimit {

@@ -128,6 +128,14 @@ export interface LigamentShown {
   triangles: [number, number, number][];
 }
 
+/// What a pose is to the limits, by the rule of `condyle depth`. At a limit: by which angle, at which of its ends, and whether a ligament makes it.
+export interface Standing {
+  is: "free" | "at_limit" | "bearing" | "impinging" | "strained" | "contact";
+  vary: number;
+  isHigh: boolean;
+  byLigament: boolean;
+}
+
 /// An angle turned from a pose until contact or the end of a ligament.
 export interface LiveLimit {
   vary: number;

@@ -14,6 +14,8 @@ export const queries = {
   /// Both bodies' vertices inside, without the other results of a pose.
   penetrations: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.penetrationsAt(at),
   values: (joint: CoreJoint, { at, quantity }: { at: Coordinates; quantity: Exclude<Quantity, "none"> }) => joint.values(at, quantity),
+  /// What the pose is to the limits; `held` in F, mm.
+  standing: (joint: CoreJoint, { angles, held }: { angles: number[]; held: number[] }) => joint.standing(angles, held),
   limit: (joint: CoreJoint, { limit }: { limit: LimitQuestion }) => joint.limit(limit),
   mapPoint: (joint: CoreJoint, { question, point }: { question: MapQuestion; point: number }) => joint.mapPoint(question, point),
   /// The frames of a motion file, whose columns are as the data block says, or empty.

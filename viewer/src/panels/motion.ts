@@ -1,12 +1,12 @@
 import { button, html, named, namesOf, spaced, svg } from "../dom";
-import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
+import type { Coordinates, Depth, Nearest, Shown, Standing } from "../core/protocol";
 import { atMost, fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
 import { hasLimits, heldOf, shownBand } from "../result";
 import { prefersStill } from "../scene/camera_turn";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
-import { intervalAt, near_deg, nearestExit, stateOf, type PoseState } from "./free_angles";
+import { intervalAt, near_deg, nearestExit } from "./free_angles";
 import { ManoeuvreGrid } from "./manoeuvres";
 import { StatusChip, type Exit } from "./status";
 import { nearestText, placeOf } from "./strip";
@@ -64,7 +64,8 @@ export class MotionPanel {
   private remembered: { by: unknown; at: number } | null = null;
   private isWarm = false;
   private touches: boolean | null = null;  // null until it is known of this pose
-  private hasIntervals = true;  // without them the page knows only whether the bodies meet
+  private standing: Standing | null = null;
+  private hasLimits = true;  // without them the page knows only whether the bodies meet
   private nearest: Nearest[] | null = null;
   private lastDepth: Depth | null = null;
   /// Names of those at their end or past it.
@@ -179,15 +180,25 @@ export class MotionPanel {
     this.drawStatus();
   }
 
-  /// Null: the core does not know them.
-  setFree(vary: number, at: Coordinates, intervals: Interval[] | null): void {
-    // Intervals of another pose are dropped.
-    if (at.angles.some((deg, i) => deg !== this.angles[i]) || at.translation.some((mm, i) => mm !== this.translation[i])) return;
+  /// Null: the core does not know it.
+  setStanding(at: Coordinates, standing: Standing | null): void {
+    if (!this.isHere(at)) return;
+    this.hasLimits = standing !== null;
+    this.standing = standing;
+    this.drawStatus();
+  }
+
+  setFree(vary: number, at: Coordinates, intervals: Interval[]): void {
+    if (!this.isHere(at)) return;
     const slider = this.sliders[vary]!;
-    this.hasIntervals = intervals !== null;
     slider.free = intervals;
     this.drawTrack(slider, at.angles[vary]!);
     this.drawStatus();
+  }
+
+  /// Answers about another pose are dropped.
+  private isHere({ angles, translation }: Coordinates): boolean {
+    return angles.every((deg, i) => deg === this.angles[i]) && translation.every((mm, i) => mm === this.translation[i]);
   }
 
   setNearest(at: Coordinates, nearest: Nearest[]): void {
@@ -226,7 +237,7 @@ export class MotionPanel {
     this.touches = shown.inContact;
     this.ligamentsAtEnd = shown.ligaments.flatMap(({ name, is }) => (is === "at_end" ? [named(name)] : []));
     this.ligaments.replaceChildren(...(shown.ligaments.length ? [ligamentTable(shown.ligaments)] : []));
-    for (const slider of this.sliders) slider.free = null;
+    this.forgetLimits();
     const names = namesOf(this.report.joint);
     const inside = (["mobile", "fixed"] as const).filter((body) => shown.inside[body] > 0).map((body) => words.inside(names[body], shown.inside[body]));
     this.answer.textContent = [
@@ -245,45 +256,44 @@ export class MotionPanel {
     this.touches = null;
     this.refuse(null);
     this.nearest = null;
-    for (const slider of this.sliders) slider.free = null;
+    this.forgetLimits();
     this.grid?.mark(null);
     this.hooks.moved(this.coordinates);
   }
 
-  /// By the rule of the limits; null until the intervals of all angles are known.
-  private stateHere(): PoseState | null {
-    const free = this.sliders.flatMap((slider) => (slider.free ? [slider.free] : []));
-    if (this.touches !== null && free.length === this.sliders.length) return stateOf(free, this.angles, this.touches, this.ligamentsAtEnd.length > 0);
-    return this.touches === null || this.hasIntervals ? null : { is: this.touches ? "impinging" : "free" };
+  private forgetLimits(): void {
+    this.standing = null;
+    for (const slider of this.sliders) slider.free = null;
+  }
+
+  /// Null until it is known.
+  private stateHere(): Pick<Standing, "is"> & Partial<Standing> | null {
+    return this.standing ?? (this.touches === null || this.hasLimits ? null : { is: this.touches ? "contact" : "free" });
   }
 
   private drawStatus(): void {
-    const state = this.stateHere(), { rom, joint } = this.report;
-    if (state) this.findEnd(state);
+    const state = this.stateHere();
+    if (state) this.findEnd(state.is);
     if (this.end?.reason === "contact") return this.status.say("limit", words.atLimit(placeOf(this.end, this.report)));
     if (this.end?.reason === "ligament") return this.status.say("limit", words.atLigament(named(this.end.ligament!)));
-    // Until the intervals are known, what was said stays, unless nothing meets and no motion ends here.
+    // Until the state is known, what was said stays, unless nothing meets and no motion ends here.
     if (!state && !this.hooks.showStored && (this.touches !== false || this.motionHere())) return;
     if (!state || state.is === "free") return this.status.say("free", this.nearest ? words.freeClear(nearestText(this.nearest, this.report)) : words.isFree);
     if (state.is === "bearing") return this.status.say("bearing", words.bearingEndsNone);
-    if (state.is === "limit" && state.byLigament) return this.status.say("limit", words.atLigament(this.ligamentsAtEnd.join(", ")));
-    if (state.is === "limit") {
-      const { name, opposite } = this.report.coordinates[state.vary]!, names = namesOf(joint);
+    if (state.is === "at_limit" && state.byLigament) return this.status.say("limit", words.atLigament(this.ligamentsAtEnd.join(", ")));
+    if (state.is === "at_limit") {
+      const { name, opposite } = this.report.coordinates[state.vary!]!, names = namesOf(this.report.joint);
       return this.status.say("limit", words.atLimit(words.meshOn(names.mobile, names.fixed), spaced(state.isHigh ? name : opposite)));
     }
-    if (state.is === "strained" && !this.touches) {
-      this.status.say("contact", words.pastLigament(this.ligamentsAtEnd.join(", ")));
-      return this.drawExit();
-    }
-    const { bearing } = rom ?? {}, knowsBearing = bearing?.rule === "leave_out" && !bearing.why_none;
-    this.status.inContact(state.is === "strained" ? words.pastLigament(this.ligamentsAtEnd.join(", ")) : knowsBearing ? words.impinging : words.inContact, this.lastDepth);
+    if (state.is === "strained") this.status.say("contact", words.pastLigament(this.ligamentsAtEnd.join(", ")));
+    else this.status.inContact(state.is === "impinging" ? words.impinging : words.inContact, this.lastDepth);
     this.drawExit();
   }
 
   /// The motion that ends here, if the joint as it is ends there too: a part or a bone may have changed since the report.
-  private findEnd(state: PoseState): void {
+  private findEnd(state: Standing["is"]): void {
     const here = this.motionHere(), isSharp = (here?.reason === "contact" || here?.reason === "ligament") && this.report.rom?.exact !== false;
-    const end = (isSharp ? state.is === "limit" : state.is !== "impinging" && state.is !== "strained") ? here : null;
+    const end = (isSharp ? state === "at_limit" : !["impinging", "strained", "contact"].includes(state)) ? here : null;
     if (end === this.end) return;
     this.grid?.mark(this.end = end);
     if (end) this.hooks.arrived(end, false);
