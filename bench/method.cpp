@@ -44,6 +44,7 @@ std::vector<MethodGroup> method_groups() {
   return {
       {"", true, condyle_kinds()},
       {"", true, sphere_tree_kinds()},
+      {"", true, hybrid_tree_kinds()},
       {"", true, spherical_shell_kinds()},
       {"", true, spherical_sampling_kinds()},
       {"", true, layered_depth_kinds()},

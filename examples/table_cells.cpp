@@ -15,29 +15,6 @@ void print_list(const char* table, std::size_t cell, const auto& entries, auto t
   for (const auto& entry : entries) std::printf("%s,%zu,%u\n", table, cell, triangle_of(entry));
 }
 
-void print_rings(const condyle::TriMesh& mesh, std::size_t cells) {
-  const auto rings = condyle::tangential::build_rings(mesh, {{0, 0, 0}, {0, 0, 1}}, cells);
-  const auto& grid = rings.grid();
-  std::printf("grid,%.17g,%.17g,%.17g,%.17g,%u,%u\n", grid.rho_min, grid.z_min, grid.rho_cell, grid.z_cell,
-              grid.columns, grid.rows);
-  for (std::size_t cell = 0; cell < grid.cells(); ++cell)
-    print_list("ring", cell, rings.lists.of(cell), [](const auto& entry) { return entry.triangle; });
-}
-
-void print_directions(const condyle::TriMesh& mesh, int cells_per_side) {
-  using namespace condyle::radial;
-  const auto itself = [](condyle::Index triangle) { return triangle; };
-  const CartesianMap cartesian(cells_per_side);
-  const CellEntries of_cartesian = bin_triangles(mesh, cartesian);
-  for (condyle::Index cell = 0; cell < cartesian.cell_count(); ++cell)
-    print_list("cartesian", cell, of_cartesian.of(cell), itself);
-  const CubeMap cube(cells_per_side);
-  CubeTable of_cube;
-  build(mesh, cube, of_cube);
-  for (condyle::Index cell = 0; cell < cube.cell_count(); ++cell)
-    print_list("cube", cell, of_cube.entries.of(cell), itself);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -46,10 +23,26 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
+    using namespace condyle::radial;
     const condyle::TriMesh mesh = condyle::io::read_mesh(std::filesystem::path(argv[1])).mesh;
+    const auto itself = [](condyle::Index triangle) { return triangle; };
     std::puts("table,cell,triangle");
-    print_directions(mesh, std::atoi(argv[2]));
-    print_rings(mesh, static_cast<std::size_t>(std::atoi(argv[3])));
+    const CartesianMap cartesian(std::atoi(argv[2]));
+    const CellEntries of_cartesian = bin_triangles(mesh, cartesian);
+    for (condyle::Index cell = 0; cell < cartesian.cell_count(); ++cell)
+      print_list("cartesian", cell, of_cartesian.of(cell), itself);
+    const CubeMap cube(std::atoi(argv[2]));
+    CubeTable of_cube;
+    build(mesh, cube, of_cube);
+    for (condyle::Index cell = 0; cell < cube.cell_count(); ++cell)
+      print_list("cube", cell, of_cube.entries.of(cell), itself);
+    const auto cells = static_cast<std::size_t>(std::atoi(argv[3]));
+    const auto rings = condyle::tangential::build_rings(mesh, {{0, 0, 0}, {0, 0, 1}}, cells);
+    const auto& grid = rings.grid();
+    std::printf("grid,%.17g,%.17g,%.17g,%.17g,%u,%u\n", grid.rho_min, grid.z_min, grid.rho_cell, grid.z_cell,
+                grid.columns, grid.rows);
+    for (std::size_t cell = 0; cell < grid.cells(); ++cell)
+      print_list("ring", cell, rings.lists.of(cell), [](const auto& entry) { return entry.triangle; });
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

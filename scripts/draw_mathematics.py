@@ -119,8 +119,9 @@ def draw_depths():
         ax.plot(0, 0, "o", color="black")
         ax.plot(*place, "o", color=DEPTH, zorder=5)
         label(ax, "v", place + (1.5, -3.0))
+    a, b, c = np.asarray(SOCKET.vertices)[np.asarray(SOCKET.triangles)[rays.triangle[v]]]
     ends = [place * (1 + sign * rays.depth_mm[v] / radius) for sign in (1, -1)]
-    crossing = min(ends, key=lambda end: distance_to(section(SOCKET, BELOW), end))
+    crossing = min(ends, key=lambda end: abs(np.cross(b - a, c - a) @ (np.append(end, 0) - a)))
     both[0].plot([0, place[0] * 1.4], [0, place[1] * 1.4], "--", color=style.BLUE, linewidth=0.9)
     both[0].plot([place[0], crossing[0]], [place[1], crossing[1]], color=DEPTH, linewidth=3)
     label(both[0], "C", (1.5, -1))
@@ -132,12 +133,6 @@ def draw_depths():
     label(both[1], "axis", (1.5, -1))
     label(both[1], f"tangential depth\n{-arcs.gap_deg[v]:.1f}°, {arcs.depth_mm[v]:.1f} mm", (-56, 19), radius * unit((start + end) / 2))
     return figure
-
-
-def distance_to(segments, place):
-    along = segments[:, 1] - segments[:, 0]
-    t = np.clip(np.einsum("ij,ij->i", place - segments[:, 0], along) / np.einsum("ij,ij->i", along, along), 0, 1)
-    return np.linalg.norm(place - segments[:, 0] - t[:, None] * along, axis=1).min()
 
 
 def cells_of(mesh):

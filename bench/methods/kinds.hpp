@@ -12,6 +12,9 @@ std::vector<MethodKind> condyle_kinds();
 /// Hierarchies of balls, in plain code of our own.
 std::vector<MethodKind> sphere_tree_kinds();
 
+/// A hierarchy of boxes, updated by halves, in plain code of our own.
+std::vector<MethodKind> hybrid_tree_kinds();
+
 /// Hierarchies of spherical shells, in plain code of our own.
 std::vector<MethodKind> spherical_shell_kinds();
 

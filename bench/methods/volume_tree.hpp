@@ -16,6 +16,7 @@
 ///   Volume posed(const Pose&) const                       holds them moved, rounding included
 ///   bool meets(const Volume&) const                       false only where no point is in both
 ///   double size() const                                   of two nodes the larger is split
+///   static Volume joined(const Volume&, const Volume&)    optional: the tree is then updated by halves
 ///
 /// A volume that holds its triangles and an exact test at the leaves make the answers exact.
 
@@ -24,6 +25,13 @@ namespace bench {
 /// Above the rounding of a point that is moved by a pose and then compared, relative to its size: about forty
 /// roundings of 1.1e-16 each.
 inline constexpr double relative_rounding = 1e-14;
+
+/// Whether a tree of these follows a deformation by halves: the upper one at once, joined from the volumes of the middle
+/// level, and a volume below when it is visited.
+template <class Volume>
+inline constexpr bool updates_by_halves = requires(const Volume& v) {
+  Volume::joined(v, v);
+};
 
 /// A binary tree over the triangles of a mesh, one of them in a leaf.
 ///
@@ -39,6 +47,8 @@ class VolumeTree {
     Volume volume;
     condyle::Index first, last;  ///< Triangles, in order_.
     condyle::Index right;        ///< 0 for a leaf.
+    condyle::Index level = 0;    ///< 0 for the root.
+    unsigned fitted = 0;         ///< To the vertices of this update.
 
     bool is_leaf() const { return right == 0; }
   };
@@ -49,26 +59,37 @@ class VolumeTree {
     std::vector<condyle::Vec3> centroids(order_.size());
     for (const condyle::Index t : order_) centroids[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
     nodes_.reserve(2 * order_.size());
-    if (!order_.empty()) build(0, static_cast<condyle::Index>(order_.size()), centroids);
-    fit();
+    if (!order_.empty()) build(0, static_cast<condyle::Index>(order_.size()), 0, centroids);
+    for (Node& node : nodes_) fit(node);
   }
 
   /// The same tree about moved vertices.
   void refit(condyle::PointsView vertices) {
     vertices_ = vertices;
-    fit();
+    ++updates_;
+    if constexpr (updates_by_halves<Volume>) {
+      if (!empty()) fit_upper_half(0);
+    } else {
+      for (Node& node : nodes_) fit(node);
+    }
   }
 
   bool empty() const { return nodes_.empty(); }
-  const Node& node(condyle::Index i) const { return nodes_[i]; }
+  const Node& node(condyle::Index i) {
+    if constexpr (updates_by_halves<Volume>)
+      if (nodes_[i].fitted != updates_) fit(nodes_[i]);
+    return nodes_[i];
+  }
   condyle::Index triangle(condyle::Index place) const { return order_[place]; }
   condyle::Vec3 corner(condyle::Index t, int k) const { return vertices_[(*triangles_)[t][k]]; }
   std::size_t bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(condyle::Index); }
 
  private:
-  void build(condyle::Index first, condyle::Index last, const std::vector<condyle::Vec3>& centroids) {
+  void build(condyle::Index first, condyle::Index last, condyle::Index level,
+             const std::vector<condyle::Vec3>& centroids) {
     const std::size_t at = nodes_.size();
-    nodes_.push_back({{}, first, last, 0});
+    nodes_.push_back({{}, first, last, 0, level});
+    middle_level_ = std::max(middle_level_, (level + 1) / 2);
     if (last - first == 1) return;
     Eigen::AlignedBox3d box;
     for (condyle::Index i = first; i < last; ++i) box.extend(centroids[order_[i]]);
@@ -79,18 +100,25 @@ class VolumeTree {
                      [&](condyle::Index a, condyle::Index b) {
                        return std::pair(centroids[a][axis], a) < std::pair(centroids[b][axis], b);
                      });
-    build(first, middle, centroids);
+    build(first, middle, level + 1, centroids);
     nodes_[at].right = static_cast<condyle::Index>(nodes_.size());
-    build(middle, last, centroids);
+    build(middle, last, level + 1, centroids);
   }
 
-  void fit() {
-    for (Node& node : nodes_) {
-      corners_.clear();
-      for (condyle::Index i = node.first; i < node.last; ++i)
-        for (int k = 0; k < 3; ++k) corners_.push_back(corner(order_[i], k));
-      node.volume = Volume::around(corners_);
-    }
+  void fit(Node& node) {
+    corners_.clear();
+    for (condyle::Index i = node.first; i < node.last; ++i)
+      for (int k = 0; k < 3; ++k) corners_.push_back(corner(order_[i], k));
+    node.volume = Volume::around(corners_);
+    node.fitted = updates_;
+  }
+
+  void fit_upper_half(condyle::Index i) {
+    Node& node = nodes_[i];
+    if (node.is_leaf() || node.level >= middle_level_) return fit(node);
+    fit_upper_half(i + 1), fit_upper_half(node.right);
+    node.volume = Volume::joined(nodes_[i + 1].volume, nodes_[node.right].volume);
+    node.fitted = updates_;
   }
 
   condyle::PointsView vertices_;
@@ -98,6 +126,8 @@ class VolumeTree {
   std::vector<condyle::Index> order_;
   std::vector<Node> nodes_;
   std::vector<condyle::Vec3> corners_;
+  condyle::Index middle_level_ = 0;
+  unsigned updates_ = 0;
 };
 
 /// Both bodies in such trees.
@@ -126,7 +156,11 @@ class TwoTrees final : public Method {
     fixed_->refit(fixed_vertices);
   }
 
-  std::unique_ptr<Method> for_another_thread() override { return std::make_unique<TwoTrees>(*this); }
+  std::unique_ptr<Method> for_another_thread() override {
+    auto other = std::make_unique<TwoTrees>(*this);
+    if constexpr (updates_by_halves<Volume>) other->fixed_ = std::make_shared<Tree>(*fixed_);
+    return other;
+  }
   std::size_t bytes() const override { return fixed_->bytes() + mobile_->bytes(); }
   Work work() const override {
     return {{"volume tests", volume_tests_}, {"triangle tests", triangle_tests_}};
