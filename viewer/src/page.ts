@@ -329,10 +329,7 @@ export class Page {
   /// The joint is ready in the worker; poses are answered from now on.
   compute(core: CoreClient): void {
     const count = this.text.joint.kind === "hinge" ? 1 : 3;
-    const askFree = freeAngles(core, count, {
-      standing: (at, standing) => this.motion.setStanding(at, standing),
-      free: (vary, at, intervals) => this.motion.setFree(vary, at, intervals),
-    });
+    const askFree = freeAngles(core, count, this.motion);
     this.clearance = new Clearance(core, this.text.rom?.implant !== undefined, (at, nearest) => this.motion.setNearest(at, nearest));
     core.listen({
       shown: (at, shown, roundTrip_ms) => {

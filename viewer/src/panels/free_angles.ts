@@ -1,20 +1,17 @@
 import type { CoreClient } from "../core/client";
 import { latestOnly } from "../core/latest";
-import type { Coordinates, MapQuestion, Standing } from "../core/protocol";
+import type { Coordinates, MapQuestion } from "../core/protocol";
 import type { Interval } from "../report";
+import type { MotionPanel } from "./motion";
 
-/// What a pose is to the limits, and all free intervals of each of `count` angles, the others held as they are, as the core is asked for them at a
-/// pose and its translation in F. Null: the core does not know them.
-export function freeAngles(core: CoreClient, count: number, on: {
-  standing(at: Coordinates, standing: Standing | null): void;
-  free(vary: number, at: Coordinates, intervals: Interval[]): void;
-}) {
+/// What a pose is to the limits, null if not known, and all free intervals of each of `count` angles, the others held, at its translation in F.
+export function freeAngles(core: CoreClient, count: number, panel: MotionPanel) {
   return latestOnly<{ at: Coordinates; held: [number, number, number] }>(async ({ at, held }) => {
     try {
-      on.standing(at, await core.query({ of: "standing", angles: at.angles, held }));
-      for (let vary = 0; vary < count; ++vary) on.free(vary, at, await core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 }));
+      panel.setStanding(at, await core.query({ of: "standing", angles: at.angles, held }));
+      for (let vary = 0; vary < count; ++vary) panel.setFree(vary, at, await core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 }));
     } catch {
-      on.standing(at, null);
+      panel.setStanding(at, null);
     }
   });
 }
