@@ -40,13 +40,14 @@ py::tuple radial_gaps(const JointHandle& handle, const py::object& pose) {
   return py::make_tuple(optional_dict(contact.mobile_in_fixed), optional_dict(contact.fixed_in_mobile));
 }
 
-py::tuple tangential_gaps(const JointHandle& handle, const py::object& pose, std::size_t about) {
+py::tuple tangential_gaps(const JointHandle& handle, const py::object& pose, const py::object& given) {
   const Pose X_FM = one_pose(pose, "pose");
-  check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential});
+  const contact::ArcsAbout about = about_in(given);
+  check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential, .about = about});
   contact::TangentialContact contact = [&] {
     const py::gil_scoped_release released;
     const CoordinateSystem system = handle.joint().coordinates();
-    return handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
+    return handle.contact.tangential(X_FM, line_of(about, system, angles_at(system, X_FM)));
   }();
   return py::make_tuple(optional_dict(contact.mobile_in_fixed), optional_dict(contact.fixed_in_mobile));
 }

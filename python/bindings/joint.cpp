@@ -156,6 +156,13 @@ JointAngle angle_numbered(std::size_t number) {
   return all_joint_angles.at(number);
 }
 
+contact::ArcsAbout about_in(const py::object& given) {
+  if (py::isinstance<py::int_>(given)) return angle_numbered(given.cast<std::size_t>());
+  const std::vector<double> n = doubles_in(given, "about");
+  return contact::AxisLine{{n.at(0), n.at(1), n.at(2)},
+                           n.size() == 3 ? Vec3(Vec3::Zero()) : Vec3(n.at(3), n.at(4), n.at(5))};
+}
+
 void bind_joint(py::module_& module) {
   py::class_<JointHandle>(module, "Joint")
       .def_property_readonly("name", [](const JointHandle& h) { return h.joint().name; })

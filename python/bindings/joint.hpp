@@ -26,5 +26,7 @@ struct JointHandle {
 
 /// One of the three angles, by its position.
 JointAngle angle_numbered(std::size_t number);
+/// The number of an angle, or the three numbers of an axis and, if there are more, three of a point.
+contact::ArcsAbout about_in(const py::object& given);
 
 }  // namespace condyle::python

@@ -79,10 +79,22 @@ py::list balanced_along(const contact::ElasticContact& surfaces, const py::objec
   return answers;
 }
 
+py::object screw_dict(const std::optional<motion::ScrewStep>& step) {
+  if (!step) return py::none();
+  py::dict dict;
+  dict["rotation_deg"] = step->rotation.degrees();
+  dict["is_slide"] = step->is_slide();
+  dict["axis"] = step->axis ? array_of(step->axis->direction) : py::object(py::none());
+  dict["point_mm"] = step->axis ? array_of(step->axis->point) : py::object(py::none());
+  dict["depth_deg"] = optional_number(step->depth ? std::optional(step->depth->degrees()) : std::nullopt);
+  dict["depth_mm"] = optional_number(step->depth_mm);
+  return dict;
+}
+
 /// Frames of a motion with the surfaces of an ElasticContact, or else of rays that `casting` sends; None for gaps. And the notes on
 /// them.
 py::tuple along(const JointHandle& handle, const py::object& poses, const contact::ElasticContact* elastic,
-                const std::string& casting, const std::string& rule, double reach_mm,
+                const std::string& casting, const std::string& rule, double reach_mm, bool with_screws,
                 const py::object& progress) {
   const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
   const Mesh &fixed = handle.contact.fixed(), &mobile = handle.contact.mobile();
@@ -96,7 +108,8 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const contac
                               .between = BetweenFrames::never,
                               .casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile,
                               .rays = rays,
-                              .limits = handle.limits()};
+                              .limits = handle.limits(),
+                              .screws = with_screws};
   const auto found = with_progress(progress, [&](const Control& control) {
     return answer_motion(handle.contact, elastic, request, control);
   });
@@ -121,6 +134,7 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const contac
     dict["cut_off_by_reach"] = frame->cut_off_by_reach;
     dict["standing"] =
         standing_of(found->standings.empty() ? std::nullopt : found->standings[i], handle.joint().anatomy);
+    dict["screw"] = found->screws.empty() ? py::none() : screw_dict(found->screws[i]);
     answers.append(dict);
   }
   return py::make_tuple(answers, notes_of(found->notes));

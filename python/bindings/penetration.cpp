@@ -120,9 +120,10 @@ py::tuple radial(const Bodies& bodies, const py::object& given, bool of_mobile, 
                         vertices_dict(of_fixed, std::move(fixed), false));
 }
 
-py::tuple tangential(const JointHandle& handle, const py::object& given, std::size_t about,
+py::tuple tangential(const JointHandle& handle, const py::object& given, const py::object& given_about,
                      const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
+  const contact::ArcsAbout about = about_in(given_about);
   const CoordinateSystem system = handle.joint().coordinates();
   VertexLists mobile, fixed;
   const bool of_mobile = handle.contact.fixed().is_closed(), of_fixed = handle.contact.mobile().is_closed();
@@ -131,9 +132,9 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, std::si
     const py::gil_scoped_release released;
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
       const Pose& X_FM = in.poses[n];
-      check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential});
+      check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential, .about = about});
       const contact::TangentialContact contact =
-          handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
+          handle.contact.tangential(X_FM, line_of(about, system, angles_at(system, X_FM)));
       if (of_mobile) mobile.append(*contact.mobile_in_fixed);
       if (of_fixed) fixed.append(*contact.fixed_in_mobile);
       follower.poll(n + 1);

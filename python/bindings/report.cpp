@@ -117,14 +117,15 @@ io::PictureColour colour_named(const std::string& name) {
 
 /// (height, width, 3), uint8.
 py::array_t<std::uint8_t> picture(const JointHandle& handle, const py::object& pose, const std::string& view,
-                                  const std::string& colour, const std::string& fixed,
-                                  const std::string& mobile, std::size_t width, std::size_t height,
-                                  const std::optional<double>& range_mm,
+                                  const std::string& colour, const py::object& about,
+                                  const std::string& fixed, const std::string& mobile, std::size_t width,
+                                  std::size_t height, const std::optional<double>& range_mm,
                                   const std::optional<double>& field_mm, bool with_measures, bool is_plain) {
   const Pose X_FM = one_pose(pose, "pose");
   const Joint& joint = handle.joint();
   io::PictureOptions options{.view = io::view_named(view, joint.side),
                              .colour = colour_named(colour),
+                             .about = about.is_none() ? std::nullopt : std::optional(about_in(about)),
                              .fixed = style_named(fixed),
                              .mobile = style_named(mobile),
                              .width = width,

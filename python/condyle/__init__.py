@@ -34,7 +34,7 @@ from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLi
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
 from ._model import Model, ModelCoordinate, ModelJoint, ModelMesh, ModelNote, read_model
 from ._motion import Motion
-from ._motion_contact import ContactFrames, FrameContact
+from ._motion_contact import ContactFrames, FrameContact, ScrewStep
 from ._motion_map import MapEnds, MotionMap
 from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
@@ -68,7 +68,7 @@ __all__ = [
     "MotionMap", "MotionTable", "NO_INDEX", "NearestLimit", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "PeopleRange", "Penetration", "Penetrations", "PlacedImplant", "Pose", "PoseStanding", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "Record", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
-    "SafeInterval", "SampleHip", "SampleImplant", "SlideRecord", "SoftTissueGap", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TouchRecord", "TriMesh", "TurnRecord",
+    "SafeInterval", "SampleHip", "SampleImplant", "ScrewStep", "SlideRecord", "SoftTissueGap", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TouchRecord", "TriMesh", "TurnRecord",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexForces", "VertexGaps", "VertexStiffness", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",

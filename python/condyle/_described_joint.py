@@ -16,7 +16,8 @@ from ._ligaments import Ligament, ligaments_of
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
-from ._words import Anatomy, Body, JointKind, ParameterKind, PartContact, Side, TranslationFrame, ZeroFrom, text_of, word
+from ._words import AboutLike, Anatomy, Body, JointKind, ParameterKind, PartContact, Side, TranslationFrame, ZeroFrom, number_array
+from ._words import text_of, word
 
 
 @dataclass(frozen=True)
@@ -311,6 +312,15 @@ class DescribedJoint(Unchanging):
         """The joint and where it is asked: what is no pose is refused before a warning is given."""
         matrices = self._matrices(pose)
         return self._asked, matrices
+
+    def _about(self, about: Optional[AboutLike]) -> Union[int, NDArray[np.float64]]:
+        """The number of an angle, or the numbers of an axis and a point of it."""
+        if about is None or isinstance(about, str):
+            return 0 if about is None else self._angle(about)
+        line = number_array(about, "about", "an angle's name, three numbers, or an axis and a point")
+        if line.shape not in ((3,), (2, 3)):
+            raise UsageError(f"about: three numbers, or an axis and a point are needed, not an array of shape {line.shape}")
+        return line.reshape(-1)
 
     def _angle(self, about: str) -> int:
         positive = [names[0] for names in self._native.angle_names]

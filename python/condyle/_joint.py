@@ -35,7 +35,7 @@ from ._resection import Reach, Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
-from ._words import Anatomy, Axes, Ball, BearingRule, BestDesign, Bodies, Body, BodyStyle
+from ._words import AboutLike, Anatomy, Axes, Ball, BearingRule, BestDesign, Bodies, Body, BodyStyle
 from ._words import Cavities, ClockPlane, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
 from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, PolygonRule, Progress, Side, TranslationFrame
 from ._words import count, number, path_of, progress_of, text_of, word
@@ -187,11 +187,11 @@ class Joint(DescribedJoint):
     # Its answers.
 
     @overload
-    def penetration(self, pose: OnePoseLike, method: GapMethod = "radial", *, about: Optional[str] = None,
+    def penetration(self, pose: OnePoseLike, method: GapMethod = "radial", *, about: Optional[AboutLike] = None,
                     bodies: Bodies = "both", progress: Progress = None) -> Penetration: ...
 
     @overload
-    def penetration(self, pose: ManyPosesLike, method: GapMethod = "radial", *, about: Optional[str] = None,
+    def penetration(self, pose: ManyPosesLike, method: GapMethod = "radial", *, about: Optional[AboutLike] = None,
                     bodies: Bodies = "both", progress: Progress = None) -> Penetrations: ...
 
     @overload
@@ -202,7 +202,7 @@ class Joint(DescribedJoint):
     def penetration(self, pose: ManyPosesLike, method: Literal["normal"], *, about: None = None,
                     bodies: Bodies = "both", progress: Progress = None) -> list[NormalContact]: ...
 
-    def penetration(self, pose: PoseLike, method: DepthMethod = "radial", *, about: Optional[str] = None,
+    def penetration(self, pose: PoseLike, method: DepthMethod = "radial", *, about: Optional[AboutLike] = None,
                     bodies: Bodies = "both", progress: Progress = None
                     ) -> Union[Penetration, NormalContact, list[NormalContact]]:
         """Which vertices of each body are inside the other one, and how deep, at one pose or many.
@@ -212,9 +212,11 @@ class Joint(DescribedJoint):
         pose : (4, 4) or (N, 4, 4) numbers, or a mapping
             X_FM, translation in mm; or the keyword arguments of :meth:`pose`.
         method : "radial", "tangential" or "normal"
-            Along rays from the joint centre (the fast path); along arcs about the axis of the angle `about` (flexion if
-            not given) at the pose, only for poses that do not translate; or along the normals of triangles, which open
-            meshes allow too: that is :meth:`normal_contact`, which takes further arguments.
+            Along rays from the joint centre (the fast path); along arcs about an axis; or along the normals of triangles,
+            which open meshes allow too: that is :meth:`normal_contact`, which takes further arguments.
+        about : text, (3,) numbers, or a pair of such
+            With "tangential": the angle whose axis at the pose arcs go about (default: flexion), only for poses that do not
+            translate; an axis of F through the joint centre; or an axis and a point of it, mm, such as a screw's.
         bodies : "both", "mobile" or "fixed"
             With "radial": vertices of which body are asked for.
         progress : callable of (done, total), optional
@@ -238,6 +240,9 @@ class Joint(DescribedJoint):
         >>> many = joint.penetration(joint.pose(flexion_deg=[0, 70, 140]))
         >>> [len(each.mobile) for each in many]
         [0, 0, 41]
+        >>> about = [0, 0, 1], [5, -40, 0]
+        >>> len(joint.penetration(joint.pose(flexion_deg=140), "tangential", about=about).mobile)
+        41
         """
         word(method, "method", DepthMethod)
         if about is not None and method != "tangential":
@@ -251,7 +256,7 @@ class Joint(DescribedJoint):
                 self._asked, matrices, bodies != "fixed", bodies != "mobile", progress_of(progress))
         else:
             is_one, mobile, fixed = _native.penetration_tangential(
-                self._asked, matrices, 0 if about is None else self._angle(about), progress_of(progress))
+                self._asked, matrices, self._about(about), progress_of(progress))
         inside = vertices_inside(mobile, self._mobile, is_one), vertices_inside(fixed, self._fixed, is_one)
         if is_one:
             return Penetration(*inside, method)
@@ -289,7 +294,7 @@ class Joint(DescribedJoint):
         is_one, answers = _native.in_contact(*self._asked_at(pose), progress_of(progress))
         return bool(answers[0]) if is_one else answers
 
-    def gaps(self, pose: OnePoseLike, method: GapMethod = "radial", *, about: Optional[str] = None) -> Gaps:
+    def gaps(self, pose: OnePoseLike, method: GapMethod = "radial", *, about: Optional[AboutLike] = None) -> Gaps:
         """The gap of every vertex at one pose: see :class:`VertexGaps`. Methods and errors as of :meth:`penetration`.
 
         C++: `JointContact::radial` and `tangential` in condyle/contact.hpp.
@@ -300,8 +305,7 @@ class Joint(DescribedJoint):
                 raise UsageError("about: is for method tangential")
             mobile, fixed = _native.radial_gaps(*self._asked_at(pose))
         else:
-            mobile, fixed = _native.tangential_gaps(*self._asked_at(pose),
-                                                    0 if about is None else self._angle(about))
+            mobile, fixed = _native.tangential_gaps(*self._asked_at(pose), self._about(about))
         return Gaps(of_vertices(VertexGaps, mobile, self._mobile), of_vertices(VertexGaps, fixed, self._fixed))
 
     @overload
@@ -381,14 +385,15 @@ class Joint(DescribedJoint):
         return normal_contact(self, pose, casting, rule, reach_mm, progress)
 
     def contact_along(self, poses: ArrayLike, surfaces: Optional[ElasticContact] = None, *, casting: Body = "mobile",
-                      rule: FaceRule = "cut_faces", reach_mm: float = 20, progress: Progress = None
-                      ) -> ContactFrames:
+                      rule: FaceRule = "cut_faces", reach_mm: float = 20, screws: bool = False,
+                      progress: Progress = None) -> ContactFrames:
         """Contact in each frame of a motion, (N, 4, 4) poses, on all threads; None for those of NaN, gaps.
 
         A list of :class:`FrameContact` whose `notes` say what looks wrong with layers and motion (docs/checks.md).
 
         With `surfaces` their pressure, and their own casting, rule and reach; else depths along normals as
-        :meth:`normal_contact` has them, one body casting.
+        :meth:`normal_contact` has them, one body casting. With `screws` each frame has a :class:`ScrewStep`: depths along arcs
+        about the screw axis of the step into it.
 
         C++: `condyle::contact_along` in condyle/motion_contact.hpp; `condyle motion`.
 
@@ -398,7 +403,7 @@ class Joint(DescribedJoint):
         >>> [frame.in_contact for frame in joint.contact_along(joint.pose(flexion_deg=[0, 145]))]
         [False, True]
         """
-        return contact_along(self, poses, surfaces, casting, rule, reach_mm, progress)
+        return contact_along(self, poses, surfaces, casting, rule, reach_mm, screws, progress)
 
     def ligament_states(self, poses: PoseLike, *, time_s: Optional[ArrayLike] = None,
                         velocity_mm_s: Optional[ArrayLike] = None,
@@ -756,9 +761,10 @@ class Joint(DescribedJoint):
         return followed_range(self, motions, poses, contact, force_n, frame, free_directions, step_deg, bearing,
                               bearing_margin_mm, progress)
 
-    def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth", fixed: BodyStyle = "solid",
-                mobile: BodyStyle = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
-                field_mm: Union[float, Literal["all"], None] = None, measures: bool = False, plain: bool = False) -> NDArray[np.uint8]:
+    def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth",
+                about: Optional[AboutLike] = None, fixed: BodyStyle = "solid", mobile: BodyStyle = "solid", width: int = 1200,
+                height: int = 900, range_mm: Optional[float] = None, field_mm: Union[float, Literal["all"], None] = None,
+                measures: bool = False, plain: bool = False) -> NDArray[np.uint8]:
         """Both bodies at one pose, drawn without a display: (height, width, 3) uint8, red, green, blue, from the top left.
 
         Parameters
@@ -767,6 +773,8 @@ class Joint(DescribedJoint):
             "anterior", "posterior", "left", "right", "superior", "inferior", "medial", "lateral", or several with hyphens.
         colour : "depth", "gap", "nearest" or "none"
             Quantity that colours the surfaces; the scale stands below.
+        about : optional
+            Depths are along arcs about this, as :meth:`penetration` takes it.
         fixed, mobile : "solid", "transparent" or "hidden"
         range_mm : float, optional
             End of the colours.
@@ -792,7 +800,8 @@ class Joint(DescribedJoint):
         """
         return _native.picture(
             *self._asked_at(pose), text_of(view, "view"),
-            word(colour, "colour", Colour), word(fixed, "fixed", BodyStyle), word(mobile, "mobile", BodyStyle),
+            word(colour, "colour", Colour), None if about is None else self._about(about),
+            word(fixed, "fixed", BodyStyle), word(mobile, "mobile", BodyStyle),
             count(width, "width"), count(height, "height"),
             None if range_mm is None else number(range_mm, "range_mm"),
             None if field_mm is None else np.inf if isinstance(field_mm, str) and field_mm == "all" else number(field_mm, "field_mm"),

@@ -19,6 +19,23 @@ from ._surface_contact import SurfaceContact, surface_of
 from ._words import Body, FaceRule, Progress, number, progress_of, word
 
 
+@dataclass(frozen=True, eq=False)
+class ScrewStep:
+    """The step into a frame as one screw motion, and how deep the bodies are along arcs about its axis.
+
+    A slide turns by less than 1e-4 degrees and has none of what may be None, nor has a step past 179. `axis` is in F, of unit length in
+    the sense of the rotation, `point_mm` its point nearest to the origin of M. Depths are the largest angle and the largest arc of a
+    vertex of either body, 0 if none is inside that a rotation frees.
+    """
+
+    rotation_deg: float
+    is_slide: bool
+    axis: Optional[NDArray[np.float64]]
+    point_mm: Optional[NDArray[np.float64]]
+    depth_deg: Optional[float]
+    depth_mm: Optional[float]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class FrameContact:
     """Contact of one frame.
@@ -42,6 +59,8 @@ class FrameContact:
     standing : PoseStanding or None
         What the pose is to the limits of the joint; None if no contact of its meshes ends a motion. Its `nearest_limit` is known of a
         frame that is at one; of any pose by `joint.depths(pose).standing`.
+    screw : ScrewStep or None
+        If asked for, of a frame that has a frame before it.
     """
 
     X_FM: Pose
@@ -53,6 +72,7 @@ class FrameContact:
     moment_nmm: NDArray[np.float64]
     cut_off_by_reach: int
     standing: Optional[PoseStanding]
+    screw: Optional[ScrewStep]
 
     def __repr__(self) -> str:
         return f"FrameContact({self.standing.state if self.standing else 'in contact' if self.in_contact else 'apart'}; {self.surface!r})"
@@ -71,18 +91,19 @@ class ContactFrames(list[Optional[FrameContact]]):
 
 
 def contact_along(joint: DescribedJoint, poses: ArrayLike, surfaces: Optional[ElasticContact], casting: Body,
-                  rule: FaceRule, reach_mm: float, progress: Progress) -> ContactFrames:
+                  rule: FaceRule, reach_mm: float, screws: bool, progress: Progress) -> ContactFrames:
     if surfaces is not None and not isinstance(surfaces, ElasticContact):
         raise UsageError(f"surfaces: an ElasticContact is needed, not {type(surfaces).__name__}")
     with used(surfaces):
         found, notes = _native.contact_along(
             joint._asked, poses, None if surfaces is None else surfaces._native,
             word(casting, "casting", Body), word(rule, "rule", FaceRule),
-            number(reach_mm, "reach_mm"), progress_of(progress))
+            number(reach_mm, "reach_mm"), bool(screws), progress_of(progress))
     for frame in found:
         if frame is not None:
             frame["surface"] = surface_of(frame["surface"])
             frame["standing"] = None if frame["standing"] is None else PoseStanding.of(frame["standing"])
+            frame["screw"] = None if frame["screw"] is None else ScrewStep(**frame["screw"])
     frames = ContactFrames(None if frame is None else FrameContact(**frame) for frame in found)
     frames.notes = reported(notes)
     return frames

@@ -14,6 +14,7 @@ from ._errors import UsageError
 Path = Union[str, os.PathLike[str]]
 Progress = Optional[Callable[[int, int], object]]
 Ball = tuple[ArrayLike, float]
+AboutLike = Union[str, ArrayLike, tuple[ArrayLike, ArrayLike]]
 
 # The words that are taken and given, each list written once: `word` reads it from the type.
 Anatomy = Literal["hip", "knee", "ankle", "elbow", "shoulder"]

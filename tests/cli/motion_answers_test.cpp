@@ -224,7 +224,7 @@ TEST_F(Motion, DepthsAboutScrewsAreThoseAboutTheAxesOfTheSteps) {
                   depth["max_tangential_depth_mm"].get<double>())));
   const NumberTable curves = csv_of(folder / "out/curves.csv");
   const auto value = [&](std::size_t row, const char* name) { return curves.rows[row][curves.column(name)]; };
-  EXPECT_NEAR(value(2, "screw_depth_deg"), depth["max_tangential_depth_deg"], 1e-11);
+  EXPECT_NEAR(value(2, "screw_depth_deg"), depth["max_tangential_depth_deg"].get<double>(), 1e-11);
   EXPECT_EQ(screws["largest_depth_mm"], (Json{{"value", value(2, "screw_depth_mm")}, {"time_s", 2.0}}));
   EXPECT_EQ(screws["slides"], 1);
   EXPECT_TRUE(value(3, "screw_is_slide") == 1 && std::isnan(value(3, "screw_depth_mm")));

@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from common import box, joint_file, json_of_command, refused, run_command
+from common import box, joint_file, json_of_command, lifted, refused, rows_of, run_command
 
 import condyle
 
@@ -96,6 +96,36 @@ def test_frames_of_a_motion_show_what_their_poses_show(hip):
     # By 150 degrees the bones are deeper than rays go.
     assert frames[0].cut_off_by_reach == 0 < frames[3].cut_off_by_reach
     refused(lambda: hip.contact_along([np.eye(4), 2 * np.eye(4) - np.diag([0, 0, 0, 1])]), "pose 1: the rotation is not orthonormal")
+
+
+def test_arcs_go_about_any_axis_as_the_command_says(hip, hip_file):
+    pose, axis, point = hip.pose(flexion_deg=140), [0.6, 0, -0.8], [5, -40, 7]
+    for about, text in (("adduction", "adduction"), (axis, "0.6 0 -0.8"), ((axis, point), "0.6 0 -0.8 5 -40 7")):
+        told = json_of_command("depth", hip_file, "--pose", "flexion=140", "--method", "tangential", "--about", text, "--json")
+        inside, gaps = (ask(pose, "tangential", about=about) for ask in (hip.penetration, hip.gaps))
+        for body, here in (("mobile", inside.mobile), ("fixed", inside.fixed)):
+            assert told["bodies"][body]["max_tangential_depth_mm"] == max(here.depth_mm[np.isfinite(here.depth_mm)]), (text, body)
+        np.testing.assert_array_equal(-gaps.mobile.gap_mm[inside.mobile.vertex], inside.mobile.depth_mm)
+    assert len(hip.penetration(lifted(3) @ pose, "tangential", about=(axis, point)).mobile)
+    assert hip.picture(pose, about=(axis, point), width=80, height=64).shape == (64, 80, 3)
+    refused(lambda: hip.penetration(pose, "tangential", about=[0, 0, 0]), "joint axis: its direction is zero")
+    refused(lambda: hip.penetration(pose, "tangential", about=[0, np.nan, 1]), "joint axis: a coordinate is not finite")
+    refused(lambda: hip.penetration(pose, "tangential", about=[0, 1]), "about: three numbers, or an axis and a point")
+
+
+def test_frames_have_the_screws_of_the_command(hip, hip_file, tmp_path):
+    (tmp_path / "swing.csv").write_text("time,flexion_deg,adduction_deg\n0,100,0\n1,130,5\n2,138,7\n3,138,7\n")
+    run_command("motion", hip_file, "--motion", tmp_path / "swing.csv", "--screws", "--out", tmp_path / "out")
+    poses, rows = hip.motion(tmp_path / "swing.csv").X_FM, rows_of(tmp_path / "out" / "curves.csv")
+    screws = [frame.screw for frame in hip.contact_along(poses, screws=True)]
+    assert screws[0] is None and screws[3].is_slide and screws[3].axis is None and screws[3].depth_deg is None
+    for screw, row in zip(screws[1:3], rows[1:3]):
+        told = [float(row[f"screw_{of}"]) for of in ("rotation_deg", "axis_x", "axis_y", "axis_z", "point_x_mm", "point_y_mm", "point_z_mm",
+                                                     "depth_deg", "depth_mm")]
+        assert told == [screw.rotation_deg, *screw.axis, *screw.point_mm, screw.depth_deg, screw.depth_mm]
+    inside = hip.penetration(poses[2], "tangential", about=(screws[2].axis, screws[2].point_mm))
+    assert 0 < screws[2].depth_mm == pytest.approx(max(*inside.mobile.depth_mm, *inside.fixed.depth_mm), abs=1e-10)
+    assert hip.contact_along(poses)[2].screw is None
 
 
 def test_depths_and_measures_of_many_poses_are_those_of_each(hip):
