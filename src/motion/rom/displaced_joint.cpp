@@ -58,11 +58,12 @@ class Surface {
           const kinematics::DisplacedParts& parts)
       : vertices_(joint, role, sigma), parts_(parts), tree_(part) {}
 
-  const FeatureTree& tree() const noexcept { return tree_; }
-  /// Moved by so many standard deviations; empty if it stays where it is.
-  std::optional<FeatureTree> moved_by(double standard_deviations, std::span<const double> parameters) const {
-    const auto moved = vertices_.moved_by(standard_deviations, parts_, parameters);
-    return moved ? std::optional(tree_.moved_to(*moved)) : std::nullopt;
+  /// Its vertices moved by so many standard deviations; empty if they stay where they are.
+  std::optional<Points> moved_by(double standard_deviations, std::span<const double> parameters) const {
+    return vertices_.moved_by(standard_deviations, parts_, parameters);
+  }
+  RotatingBody body(const std::optional<Points>& moved) const {
+    return moved ? RotatingBody(tree_, *moved) : RotatingBody(tree_);
   }
 
  private:
@@ -104,12 +105,10 @@ struct DisplacedJoint::Parts {
   /// Where these surfaces end a motion sooner than noted.
   void take_limits(const Displacement& d, const Surface& of_fixed, const Surface& of_mobile,
                    std::span<DisplacedLimit> out) const {
-    const std::optional<FeatureTree> moved_fixed = of_fixed.moved_by(d.fixed_surface, d.parameters),
-                                     moved_mobile = of_mobile.moved_by(d.mobile_surface, d.parameters);
-    const auto &fixed = moved_fixed ? *moved_fixed : of_fixed.tree(),
-               &mobile = moved_mobile ? *moved_mobile : of_mobile.tree();
-    RotatingBody stationary_fixed(fixed), stationary_mobile(mobile), rotating_fixed(fixed),
-        rotating_mobile(mobile);
+    const std::optional<Points> fixed = of_fixed.moved_by(d.fixed_surface, d.parameters),
+                                mobile = of_mobile.moved_by(d.mobile_surface, d.parameters);
+    RotatingBody stationary_fixed = of_fixed.body(fixed), stationary_mobile = of_mobile.body(mobile),
+                 rotating_fixed = of_fixed.body(fixed), rotating_mobile = of_mobile.body(mobile);
 
     const Pose X_FG = displaced_frame(d);
     const Pose A = inverted(X_ref_) * X_FG * X_ref_;

@@ -72,6 +72,16 @@ RotatingBody::RotatingBody(const FeatureTree& tree)
   for (const Vec3& p : tree.vertices()) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
 }
 
+RotatingBody::RotatingBody(const FeatureTree& tree, const Points& moved) : RotatingBody(tree) {
+  moved_ = &moved;
+  double farthest = 0;
+  for (Index v = 0; v < tree.vertices().size(); ++v)
+    farthest = std::max(farthest, (moved[tree.mesh_vertex(v)] - tree.vertices()[v]).squaredNorm());
+  // More than the roundings of the sum and of the root.
+  moved_by_ = std::sqrt(farthest) * (1 + 1e-12);
+  extent_ += moved_by_;
+}
+
 void RotatingBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
   const bool as_before = pose_number_ > 0 && frame_R.rotation() == frame_.rotation() &&
                          frame_R.point() == frame_.point() && X_RT.matrix() == X_RT_.matrix();
@@ -93,7 +103,8 @@ void RotatingBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
 void RotatingBody::place_vertex(Index vertex) {
   if (vertex_mark_[vertex] == pose_number_) return;
   vertex_mark_[vertex] = pose_number_;
-  const Point p = triple(frame_.to_axis(posed(X_RT_, tree_->vertices()[vertex])));
+  const Vec3 own = moved_ ? Vec3((*moved_)[tree_->mesh_vertex(vertex)]) : tree_->vertices()[vertex];
+  const Point p = triple(frame_.to_axis(posed(X_RT_, own)));
   features_.points[vertex] = p;
   features_.at[vertex] = cylinder_point(p);
 }
@@ -111,10 +122,10 @@ const CylinderBox& RotatingBody::node_box(Index i) {
   } else {
     const auto vec3 = [](const std::array<float, 4>& v) { return Vec3(v[0], v[1], v[2]); };
     const Vec3 centre = frame_.to_axis(posed(X_RT_, vec3(node.centre)));
-    const Vec3 half = rotation_size_ * vec3(node.half) + Vec3::Constant(posing_slack_);
+    const Vec3 half = rotation_size_ * vec3(node.half) + Vec3::Constant(posing_slack_ + moved_by_);
     box = box_of_box(triple(centre), triple(half));
-    box.r_lo = std::max(box.r_lo, node.nearest - origins_apart_);
-    box.r_hi = std::min(box.r_hi, node.farthest + origins_apart_);
+    box.r_lo = std::max(box.r_lo, node.nearest - origins_apart_ - moved_by_);
+    box.r_hi = std::min(box.r_hi, node.farthest + origins_apart_ + moved_by_);
   }
   return box;
 }

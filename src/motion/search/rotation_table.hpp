@@ -74,6 +74,9 @@ class RotatingBody {
  public:
   /// The tree must outlive this.
   explicit RotatingBody(const FeatureTree& tree);
+  /// The same surface with its vertices elsewhere, one for each of the mesh's, which must outlive this: as with the tree moved there, which takes
+  /// longer than one search. Boxes in the tree are taken wider by the farthest move.
+  RotatingBody(const FeatureTree& tree, const Points& moved);
 
   /// Starts at X_RT, the pose of the rotating body T measured in the stationary body R, about the axis given in
   /// R. Prepared parts stay ready if it starts there already.
@@ -108,6 +111,8 @@ class RotatingBody {
   /// nor nearer.
   double origins_apart_ = 0;
   double extent_ = 0;
+  const Points* moved_ = nullptr;
+  double moved_by_ = 0;  ///< no vertex is moved farther, mm
   CylinderFeatures features_;
   /// A node or vertex is ready where its mark is the number of the current pose.
   unsigned pose_number_ = 0;
