@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "core/predicates.hpp"
 #include "support/complaint.hpp"
+#include "support/same_bits.hpp"
 #include "support/test_meshes.hpp"
 #include "support/tube.hpp"
 
