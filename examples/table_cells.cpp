@@ -6,6 +6,7 @@
 #include <string>
 
 #include "condyle/io/mesh_file.hpp"
+#include "radial/build/cartesian_rows.hpp"
 #include "radial/build/cube_table.hpp"
 #include "tangential/build/rings.hpp"
 
@@ -28,9 +29,10 @@ int main(int argc, char** argv) {
     const auto itself = [](condyle::Index triangle) { return triangle; };
     std::puts("table,cell,triangle");
     const CartesianMap cartesian(std::atoi(argv[2]));
-    const CellEntries of_cartesian = bin_triangles(mesh, cartesian);
+    CartesianRows of_cartesian;
+    build(mesh, cartesian, of_cartesian);
     for (condyle::Index cell = 0; cell < cartesian.cell_count(); ++cell)
-      print_list("cartesian", cell, of_cartesian.of(cell), itself);
+      print_list("cartesian", cell, of_cartesian.entries.of(cell), itself);
     const CubeMap cube(std::atoi(argv[2]));
     CubeTable of_cube;
     build(mesh, cube, of_cube);

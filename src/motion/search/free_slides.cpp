@@ -40,12 +40,12 @@ SlideEnd slide_end(const TranslationEnd& at, const Vec3& along, const Pose& X_FM
 }
 
 /// Ends by size: nothing ends the line's.
-constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double no_end = std::numeric_limits<double>::infinity();
 double low_of(const SlideEnd& end) noexcept {
-  return end.at_mm.value_or(-unbounded);
+  return end.at_mm.value_or(-no_end);
 }
 double high_of(const SlideEnd& end) noexcept {
-  return end.at_mm.value_or(unbounded);
+  return end.at_mm.value_or(no_end);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ FreeSlides free_slides(const Mesh& fixed, const SlidingBody& placed_fixed, const
     FreeSlide gap;
     if (i > 0) gap.low = slide_end(contacts[i - 1].high, along, X_FM);
     if (i < contacts.size()) gap.high = slide_end(contacts[i].low, along, X_FM);
-    if (low_of(gap.low) == unbounded || high_of(gap.high) == -unbounded) continue;  // beyond the range
+    if (low_of(gap.low) == no_end || high_of(gap.high) == -no_end) continue;  // beyond the range
     // One body inside the other is in contact all the way between two contacts of their surfaces.
     if (gap.low.at_mm && gap.high.at_mm &&
         bodies.touch(slid(X_FM, along * (*gap.low.at_mm + (*gap.high.at_mm - *gap.low.at_mm) / 2))))
