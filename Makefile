@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench bench-summary verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits
+  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits finite-elements
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -68,7 +68,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) static-test npm-test windows-test verify label-limits rotation-queries mujoco-limits package clang sanitize sanitize-thread
+	@$(MAKE) static-test npm-test windows-test verify label-limits rotation-queries mujoco-limits finite-elements package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -209,6 +209,14 @@ mujoco-limits:
 	@mkdir -p build/mujoco && cp tests/npm/mujoco.mjs build/mujoco
 	@cd build/mujoco && if npm install --no-audit --no-fund --silent mujoco-js@0.0.7; then node mujoco.mjs ../release/condyle; \
 	 else echo "mujoco-limits: skipped: npm has no mujoco-js"; fi
+
+# Layers of GetFEM's finite elements with our contact, held against closed forms; a picture in out/finite_elements.
+finite-elements:
+	@scripts/install_dependencies.sh finite-elements
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_python
+	@mkdir -p out/finite_elements
+	@PYTHONPATH=build/release/python /usr/bin/python3 examples/python/finite_element_contact.py out/finite_elements || [ $$? -eq 77 ]
 
 # The command for Windows on x86-64, compiled here by mingw-w64: build/windows/condyle.exe.
 windows: command_dependencies

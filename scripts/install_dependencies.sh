@@ -11,6 +11,7 @@
 #   install_dependencies.sh wheel     for make wheel; with docs, for make release
 #   install_dependencies.sh image     and for the test of make image, which unpacks it by umoci too
 #   install_dependencies.sh windows   and for make windows, and its test, which runs it by Wine
+#   install_dependencies.sh finite-elements   and for make finite-elements
 #   install_dependencies.sh snakemake and for the test of workflow/ without Slurm
 #   install_dependencies.sh workflow  and for all of it
 set -euo pipefail
@@ -58,12 +59,13 @@ for group in "$@"; do
       packages+=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev)
       packages+=(wine wine64 googletest)
       ;;
+    finite-elements) packages+=(python3-getfem) ;;
     workflow)
       packages+=(slurmctld slurmd slurm-client munge)
       ;&
     snakemake) packages+=(snakemake) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, page, package-test, wheel, image, windows, snakemake, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, page, package-test, wheel, image, windows, finite-elements, snakemake, workflow" >&2
       exit 2
       ;;
   esac
