@@ -241,9 +241,9 @@ class RangeOfMotion(HasLimits, Unchanging):
         """Rows, columns, and the coordinate that varies: angles from 0, translations from 3."""
         axes = self._grid_axis(row, "row"), self._grid_axis(column, "column")
         rest = [i for i in range(3) if i not in (axes[0][0], axes[1][0])]
-        if vary is None and len(rest) > 1:
+        if vary is None and max(axes[0][0], axes[1][0]) > 2:
             raise UsageError("vary: a map over a translation needs the angle or the translation that varies")
-        return axes, rest[0] if vary is None else self._coordinate(vary, "vary")
+        return axes, rest[-1] if vary is None else self._coordinate(vary, "vary")
 
     def _coordinate(self, name: str, what: str) -> int:
         return 3 + TRANSLATIONS.index(name) if name in TRANSLATIONS else self._motions.positive_angle(name, what)

@@ -66,7 +66,7 @@ TEST(PictureValues, OfArcsAreAboutTheirAxis) {
     EXPECT_EQ(values.is_bound[v] != 0, is_inside && !is_freed) << v;
     EXPECT_EQ(values.mm[v], !is_inside ? 0 : is_freed ? -arcs->arc_gap_mm[v] : -values.outside[v]) << v;
   }
-  EXPECT_GT(*std::max_element(values.mm.begin(), values.mm.end()), 1);
+  EXPECT_GT(*std::max_element(values.mm.begin(), values.mm.end()), 0.5);
 }
 
 }  // namespace

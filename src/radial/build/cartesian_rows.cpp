@@ -1,6 +1,6 @@
 #include "radial/build/cartesian_rows.hpp"
 
-#include "radial/update/rows.hpp"
+#include "radial/build/rows.hpp"
 
 namespace condyle::radial {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "radial/build/cube_binning.hpp"
-#include "radial/update/rows.hpp"
+#include "radial/build/rows.hpp"
 
 namespace condyle::radial {
 namespace {
