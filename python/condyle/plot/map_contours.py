@@ -214,8 +214,8 @@ def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] =
             ax.spines[side].set_visible(True)
         _angle_ticks(ax.xaxis, grid.columns_deg)
         _angle_ticks(ax.yaxis, grid.rows_deg)
-        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim(), SYMBOLS[grid.units[0]]), scope_clause(result)))))
-        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim(), SYMBOLS[grid.units[1]]))
+        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim(), symbol=SYMBOLS[grid.units[0]]), scope_clause(result)))))
+        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim(), symbol=SYMBOLS[grid.units[1]]))
         if colour_bar:
             bar = ax.figure.colorbar(filled, ax=ax, pad=0.02, aspect=28)
             bar.outline.set_linewidth(0.6)
@@ -304,8 +304,8 @@ def map_ends(result: MapLike, side: Literal["positive", "negative"] = "positive"
             ax.spines[edge].set_visible(True)
         _angle_ticks(ax.xaxis, grid.columns_deg)
         _angle_ticks(ax.yaxis, grid.rows_deg)
-        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim(), SYMBOLS[grid.units[0]]), scope_clause(result)))))
-        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim(), SYMBOLS[grid.units[1]]))
+        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim(), symbol=SYMBOLS[grid.units[0]]), scope_clause(result)))))
+        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim(), symbol=SYMBOLS[grid.units[1]]))
         movement = spaced(grid.varied[side == "negative"])
         ax.text(1.02, 0.5, in_two_lines(f"what ends {movement}; lines: after how far ({SYMBOLS[grid.units[2]]})", 40), transform=ax.transAxes,
                 rotation=90, va="center", ha="left", multialignment="center")
@@ -339,7 +339,7 @@ def _curve(grid: MotionGrid, values: Array, view: str, ax: Optional[Axes]) -> Ax
         _angle_ticks(ax.xaxis, held)
         ax.grid(axis="y")
         ax.set_xlabel(angle_axis(*(grid.column if along_columns else grid.row), float(held[0]), float(held[-1]),
-                                 SYMBOLS[grid.units[0 if along_columns else 1]]))
+                                 symbol=SYMBOLS[grid.units[0 if along_columns else 1]]))
         ax.set_ylabel(f"{quantity_of(grid, view)} ({SYMBOLS[grid.units[2]]})")
         if set(marks) - {"islands"}:
             ax.legend()

@@ -85,7 +85,7 @@ SYMBOLS = {"deg": "°", "mm": "mm"}
 """Of the units of a map's coordinates."""
 
 
-def angle_axis(positive: str, negative: str, low: float, high: float, symbol: str = "°") -> str:
+def angle_axis(positive: str, negative: str, low: float, high: float, *, symbol: str = "°") -> str:
     """Label of an axis of a clinical angle: "flexion (°)", and with its opposite where the axis has both; of a translation "x (mm)"."""
     if symbol != "°":
         return f"{spaced(positive)} ({symbol})"
