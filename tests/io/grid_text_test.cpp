@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "condyle/error.hpp"
 
 namespace condyle {
@@ -34,6 +37,16 @@ TEST(GridText, RefusesWhatIsNotAnAxis) {
   for (const char* text : {"", "flexion", "flexion=", "flexion=a", "flexion=1:", "flexion=1:2:3:4", "=1:2",
                            "flexion=1:2:nan", "flexion=1:inf", "flexion=1 :2", "knee=1:2", "flexion=0x1"})
     EXPECT_THROW(io::parse_grid_axis(text, Anatomy::hip), UsageError) << text;
+}
+
+TEST(GridText, AnAngleIsHeldOnceAndOnlyIfItIsOnNoAxis) {
+  const auto grid = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"flexion=0:60:30", "x=0:1"});
+    return io::parse_grid(more, "z", Anatomy::hip);
+  };
+  EXPECT_EQ(grid({"adduction=10"}).held.angles.adduction, Angle::degrees(10));
+  for (const char* text : {"adduction=20", "flexion=0", "x=1", "internal_rotation=1:2"})
+    EXPECT_THROW(grid({"adduction=10", text}), UsageError) << text;
 }
 
 }  // namespace

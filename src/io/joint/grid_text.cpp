@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -66,10 +67,14 @@ motion::MapGrid parse_grid(std::span<const std::string> axes, std::string_view v
   else
     for (const JointAngle angle : all_joint_angles)
       if (grid.row.coordinate != angle && grid.column.coordinate != angle) grid.vary = angle;
+  std::vector<motion::MapCoordinate> named{grid.row.coordinate, grid.column.coordinate, grid.vary};
   for (const std::string& text : axes.subspan(2)) {
     const motion::GridAxis axis = parse_grid_axis(text, joint);
     if (!axis.coordinate.is_angle() || axis.last != axis.first)
       throw UsageError(fmt::format("map: {} does not hold an angle at one value", io::in_quotes(text)));
+    if (std::find(named.begin(), named.end(), axis.coordinate) != named.end())
+      throw UsageError(fmt::format("map: {} is on an axis, varies or is held already", io::in_quotes(text)));
+    named.push_back(axis.coordinate);
     grid.held.angles =
         motion::turned_by(grid.held.angles, axis.coordinate.angle(), Angle::degrees(axis.first));
   }
