@@ -60,7 +60,8 @@ struct ScrewStep {
   /// In F: of unit length, in the sense of the rotation, and the point nearest to the origin of M. None of a slide, nor past 179
   /// degrees, where the sense would hang on rounding.
   std::optional<contact::AxisLine> axis = {};
-  /// Largest angle and largest arc of a vertex of either body, not always of one vertex; 0 if none is inside that rotation frees.
+  /// Largest angle and largest arc by which a rotation frees a vertex of either body, not always one vertex; 0 if none is inside.
+  /// Empty without an axis, and if vertices are inside of which no rotation frees any.
   std::optional<Angle> depth = {};
   std::optional<double> depth_mm = {};
 

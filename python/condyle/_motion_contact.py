@@ -24,8 +24,8 @@ class ScrewStep:
     """The step into a frame as one screw motion, and how deep the bodies are along arcs about its axis.
 
     A slide turns by less than 1e-4 degrees and has none of what may be None, nor has a step past 179. `axis` is in F, of unit length in
-    the sense of the rotation, `point_mm` its point nearest to the origin of M. Depths are the largest angle and the largest arc of a
-    vertex of either body, 0 if none is inside that a rotation frees.
+    the sense of the rotation, `point_mm` its point nearest to the origin of M. Depths are the largest angle and the largest arc by
+    which a rotation frees a vertex of either body: 0 if none is inside, None also if it frees none of those inside.
     """
 
     rotation_deg: float

@@ -61,6 +61,15 @@ TEST_F(Swing, DepthsAreAboutTheLineThatItSwingsAbout) {
   EXPECT_TRUE(deep > 10 && deep < 50) << deep;
 }
 
+TEST_F(Swing, NoRotationFreesWhatIsDeepInsideAllTheWayRound) {
+  const contact::JointContact buried(test::box({-80, -80, -80}, {80, 80, 80}), joint.mobile());
+  Frames frames{swung(0), swung(5)};
+  for (auto& frame : frames) frame->in_contact = true;
+  const auto steps = *screws_along(buried, frames);
+  EXPECT_TRUE(steps[1]->axis);
+  EXPECT_FALSE(steps[1]->depth || steps[1]->depth_mm);
+}
+
 TEST_F(Swing, SlidesGapsAndHalfTurnsHaveNoAxis) {
   const FrameContact deep = swung(0);
   FrameContact slid = deep;

@@ -86,6 +86,7 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     if (step.is_slide()) ++summary.slides;
     if (!step.axis) continue;
     ++summary.screws;
+    if (!step.depth) continue;
     consider(summary.screw_deg, step.depth->degrees());
     consider(summary.screw_mm, *step.depth_mm);
   }

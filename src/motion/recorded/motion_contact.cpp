@@ -100,13 +100,16 @@ class SmallestGap {
   std::optional<Points> nearest_;
 };
 
-/// Of the vertices of one body in the frame of the other one, which is `solid`. The table is of one frame only: those that JointContact
-/// keeps are not lost for it.
-void add_depths(ScrewStep& step, const Mesh& solid, const AxisFrame& axis, PointsView vertices) {
-  if (!solid.is_closed()) return;
+/// Adds the depths of one body's vertices, which are given in the frame of the other one, `solid`; returns how many are inside it. The table
+/// serves one frame: those that JointContact keeps are not lost for it.
+std::size_t add_depths(ScrewStep& step, const Mesh& solid, const AxisFrame& axis, PointsView vertices) {
+  if (!solid.is_closed()) return 0;
   const auto summary = contact::summarise(tangential::RingTable(solid, axis).query(vertices));
-  if (summary.largest_angle) step.depth = std::max(*step.depth, summary.largest_angle->depth);
-  if (summary.deepest) step.depth_mm = std::max(*step.depth_mm, summary.deepest->depth_mm);
+  if (summary.largest_angle) {
+    step.depth = std::max(step.depth.value_or(Angle()), summary.largest_angle->depth);
+    step.depth_mm = std::max(step.depth_mm.value_or(0), summary.deepest->depth_mm);
+  }
+  return summary.vertices_inside;
 }
 
 ScrewStep step_into(const FrameContact& frame, const Pose& before, const contact::JointContact& joint,
@@ -115,12 +118,15 @@ ScrewStep step_into(const FrameContact& frame, const Pose& before, const contact
   ScrewStep step{.rotation = motion.rotation()};
   if (step.is_slide() || step.rotation > most_rotation) return step;
   const contact::AxisLine axis = step.axis.emplace(contact::AxisLine{motion.axis(), motion.point()});
-  step.depth = Angle(), step.depth_mm = 0;
-  if (!frame.in_contact) return step;
-  const Pose X_MF = inverted(frame.X_FM);
-  add_depths(step, joint.fixed(), {axis.point, axis.direction}, posed(frame.X_FM, joint.mobile().vertices()));
-  add_depths(step, joint.mobile(), {posed(X_MF, axis.point), core::turned(X_MF, axis.direction)},
-             posed(X_MF, joint.fixed().vertices()));
+  std::size_t inside = 0;
+  if (frame.in_contact) {
+    const Pose X_MF = inverted(frame.X_FM);
+    inside += add_depths(step, joint.fixed(), {axis.point, axis.direction},
+                         posed(frame.X_FM, joint.mobile().vertices()));
+    inside += add_depths(step, joint.mobile(), {posed(X_MF, axis.point), core::turned(X_MF, axis.direction)},
+                         posed(X_MF, joint.fixed().vertices()));
+  }
+  if (inside == 0) step.depth = Angle(), step.depth_mm = 0;
   return step;
 }
 
