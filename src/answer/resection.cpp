@@ -3,11 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <map>
 
 #include "answer/check_gains.hpp"
 #include "answer/limit_facts.hpp"
+#include "answer/margin_search.hpp"
 #include "answer/surface_notes.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -20,16 +19,6 @@ namespace condyle {
 namespace {
 
 using core::formatted;
-
-/// Margins that are tried for a share of varied joints: the largest, mm, and the steps up to it while the share is not reached; the first by
-/// what a mm of margin usually gives. It is found once the share ends each motion so little beyond its target, or the margin is so near to one
-/// that is too small.
-constexpr double largest_margin_mm = 4, least_step_mm = 0.1, most_step_mm = 1, usual_deg_per_mm = 12;
-constexpr double found_within_deg = 0.25, found_within_mm = 0.05;
-constexpr int most_margins = 12;
-/// Bone that stays may be in the way of one margin and not of a wider one: so much farther it is tried again, so often.
-constexpr double after_failure_mm = 0.2;
-constexpr int most_failures = 4;
 
 /// The share whose plan is given beside the requested one.
 constexpr double other_confidence = 0.8;
@@ -253,128 +242,13 @@ void note_gains(ResectionAnswer& answer) {
     answer.notes.push_back({ResectionNoteCode::no_gain, "these motions gain nothing: " + same});
 }
 
-/// Finds the smallest margin with which a share of varied joints reaches the targets: what displaces a joint moves its surfaces towards
-/// each other from any side, which a plan for more degrees would not meet.
-class MarginSearch {
- public:
-  MarginSearch(const ResectionRequest& request, const motion::BandOptions& displaced, const Control& control,
-               Cuts& cuts)
-      : request_(request), displaced_(displaced), control_(control), cuts_(cuts) {
-    for (const plan::ReachTarget& target : request.resection.targets) motions_.push_back(target.motion);
-  }
-
-  /// Adds a cut with this margin; false if it was stopped, or if kept bone has no room for it that it had for the first.
-  bool add(double margin_mm, plan::Resection cut) {
-    if (!tried_.empty() && blocked(cut) != blocked(tried_.begin()->second.resection)) return false;
-    auto bands = motion::bands_without_widths(cut.joint, motions_, request_.resection.range, displaced_,
-                                              {.stop = control_.stop});
-    if (!bands) return false;
-    Tried tried{std::move(cut), {}};
-    for (motion::LimitBand& band : *bands) {
-      std::sort(band.turned.begin(), band.turned.end(), std::greater<>());
-      tried.turned.push_back(std::move(band.turned));
-    }
-    tried_.emplace(margin_mm, std::move(tried));
-    return true;
-  }
-
-  /// Empty if none was found, or if it was stopped.
-  std::optional<double> margin_for(double share) {
-    for (int margins = 0;; ++margins) {
-      auto low = tried_.end(), high = tried_.begin();
-      while (high != tried_.end() && beyond_deg(high->second, share) < 0) low = high++;
-      const bool none = high == tried_.end();
-      if (none ? std::max(low->first, failed_mm_) >= largest_margin_mm || failures_ == most_failures ||
-                     margins == most_margins
-               : low == tried_.end() || margins == most_margins || is_found(*low, *high, share))
-        return none ? std::nullopt : std::optional(high->first);
-      const double next = none ? wider(low, share) : between(*low, *high, share);
-      plan::ResectionOptions options = request_.resection;
-      options.margin_mm = next;
-      std::optional<plan::Resection> cut;
-      try {
-        cut = cuts_(options);
-      } catch (const MeshError&) {  // so much cannot be cut
-      }
-      if (cut && add(next, std::move(*cut))) continue;
-      if (control_.stop.stop_requested()) return std::nullopt;
-      if (!none) return high->first;
-      failed_mm_ = next, ++failures_;
-    }
-  }
-
-  /// The widest with which there is a cut, and the widest that was tried.
-  double widest_mm() const { return tried_.rbegin()->first; }
-  double tried_to_mm() const { return std::max(widest_mm(), failed_mm_); }
-  const plan::Resection& cut(double margin_mm) const { return tried_.at(margin_mm).resection; }
-
- private:
-  struct Tried {
-    plan::Resection resection;
-    std::vector<std::vector<Angle>> turned;  ///< of each target, by the varied joints, descending
-  };
-  using Each = std::map<double, Tried>;
-
-  static std::vector<bool> blocked(const plan::Resection& cut) {
-    std::vector<bool> by_target;
-    for (const plan::ReachOutcome& target : cut.targets) by_target.push_back(target.blocked.has_value());
-    return by_target;
-  }
-
-  /// By how much the share reaches more than every target that nothing blocks; below 0 less.
-  double beyond_deg(const Tried& tried, double share) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < motions_.size(); ++i) {
-      const std::vector<Angle>& turned = tried.turned[i];
-      const double needed = std::ceil(share * static_cast<double>(turned.size()) - 1e-9);
-      if (!tried.resection.targets[i].blocked)
-        least = std::min(least, (turned[static_cast<std::size_t>(std::max(needed, 1.0)) - 1] -
-                                 request_.resection.targets[i].reach)
-                                    .degrees());
-    }
-    return least;
-  }
-
-  bool is_found(const Each::value_type& low, const Each::value_type& high, double share) const {
-    return high.first - low.first <= found_within_mm || beyond_deg(high.second, share) <= found_within_deg;
-  }
-
-  /// Where the line through the last two margins is at the target, if there are two.
-  double wider(Each::const_iterator last, double share) const {
-    const double lacks = found_within_deg / 2 - beyond_deg(last->second, share);
-    double slope = usual_deg_per_mm;
-    if (last != tried_.begin()) {
-      const auto& [margin_mm, before] = *std::prev(last);
-      slope = (beyond_deg(last->second, share) - beyond_deg(before, share)) / (last->first - margin_mm);
-    }
-    const double step = slope > 0 ? lacks / slope : most_step_mm;
-    const double next = last->first + std::clamp(step, least_step_mm, most_step_mm);
-    return std::min(failed_mm_ > last->first ? failed_mm_ + after_failure_mm : next, largest_margin_mm);
-  }
-
-  double between(const Each::value_type& low, const Each::value_type& high, double share) const {
-    const double from = beyond_deg(low.second, share), to = beyond_deg(high.second, share);
-    const double part = std::clamp((found_within_deg / 2 - from) / (to - from), 0.1, 0.9);
-    return low.first + part * (high.first - low.first);
-  }
-
-  const ResectionRequest& request_;
-  const motion::BandOptions& displaced_;
-  const Control& control_;
-  Cuts& cuts_;
-  std::vector<motion::Motion> motions_;
-  Each tried_;
-  double failed_mm_ = 0;  ///< the last one that was too wide for the bone
-  int failures_ = 0;
-};
-
 /// The plan with which the requested share reaches the targets; false if it was stopped. If kept bone blocks all of them no margin helps.
 bool reach_share(const ResectionRequest& request, const motion::BandOptions& displaced,
                  const Control& control, Cuts& cuts, ResectionAnswer& answer) {
   const std::vector<plan::ReachOutcome>& targets = answer.resection.targets;
   if (std::all_of(targets.begin(), targets.end(), [](const auto& target) { return target.blocked; }))
     return true;
-  MarginSearch search(request, displaced, control, cuts);
+  MarginSearch search(request, displaced, control, std::ref(cuts));
   if (!search.add(answer.margin_mm, std::move(answer.resection))) return false;
   std::optional<double> margin_mm;
   for (const double share : {*request.confidence, other_confidence}) {
@@ -601,7 +475,8 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
     throw UsageError("resection: the confidence must be above 0 and below 1");
   if (!asked.bands) asked.confidence.reset();
   Cuts cuts(at, control,
-            1 + asked.resection.targets.size() * asked.curve_points + (asked.confidence ? most_margins : 0));
+            1 + asked.resection.targets.size() * asked.curve_points +
+                (asked.confidence ? MarginSearch::most_margins : 0));
   auto first = cuts(asked.resection);
   if (!first) return std::nullopt;
   ResectionAnswer answer{.resection = std::move(*first)};
