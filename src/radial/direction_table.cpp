@@ -266,12 +266,11 @@ std::optional<CubeView> DirectionTable::cube_view() const {
 RadialTableSize DirectionTable::table_size() const noexcept {
   Index longest = 0;
   for (const CellRow& row : entries().row) longest = std::max(longest, row.last - row.first);
-  const auto& [radii, pyramid, scale] = rejection_.last();
   return {.cells = entries().row.size(),
           .entries = entries().count(),
           .bytes = entries().bytes() + cartesian_.box.size() * sizeof(CartesianBox) + table_.forms.bytes() +
-                   table_.slack.bytes() + radii.bytes() + pyramid.size() * sizeof(PackedInterval) +
-                   triangles_at_.bytes(),
+                   table_.slack.bytes() + rejection_.last().bytes() + earlier_.parts.bytes() +
+                   (earlier_.vertices.size() + spare_.size()) * sizeof(Vec3) + triangles_at_.bytes(),
           .longest_list = longest};
 }
 

@@ -21,6 +21,8 @@ struct RejectionParts {
   CellRadii radii;
   DirectionPyramid pyramid;
   IntervalScale scale;  ///< of both
+
+  std::size_t bytes() const noexcept { return radii.bytes() + pyramid.size() * sizeof(PackedInterval); }
 };
 
 /// Rejection parts of a surface that has moved since: read with slack for how far, they need not be made again.
@@ -32,6 +34,9 @@ struct EarlierParts {
   RejectionParts parts;
   Points vertices;             ///< where they were; none: there are no parts
   std::optional<Drift> drift;  ///< since; empty where that is too far
+
+  /// The entries have changed: no triangle of theirs is known to be too far out.
+  void forget_nearest(const CellEntries& entries) { parts.radii.nearest.assign(entries.triangle.size(), 0); }
 };
 
 /// Data of a RadialTable; its functions are those of RadialTable.

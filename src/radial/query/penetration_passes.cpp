@@ -189,6 +189,13 @@ std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, co
   return pose.distance > 0 ? find(near_blocks<true, false>) : find(near_blocks<false, false>);
 }
 
+/// The least squared radius of an interval; one below the scale is taken for 0.
+HWY_INLINE Floats least_of(const CubeView& cube, Words entry) {
+  const auto code = hn::BitCast(di, hn::And(entry, hn::Set(du, 0xffff)));
+  const auto bits = hn::Add(hn::Set(di, cube.scale.base), hn::ShiftLeftSame(code, cube.scale.shift));
+  return hn::IfThenZeroElse(hn::RebindMask(d, hn::Eq(code, hn::Zero(di))), hn::BitCast(d, bits));
+}
+
 /// Squared radius beyond which no exit is the nearer one, as a code. A point at radius r that is inside
 /// has crossed surface at l or beyond, l the least radius in its cell, if the centre is outside: the way back
 /// there is at most r - l, and the ways to surface beyond 2 r - l are longer. With a = r^2 and b = l^2
@@ -196,12 +203,10 @@ std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, co
 ///     (2 r - l)^2 = 4 a + b - 4 r l <= 4 a + b - 8 a b / (a + b),
 ///
 /// as r l is the geometric mean of a and b, and at least their harmonic one. 2^-12 is far above the errors of
-/// points and codes. A least radius below the scale is taken for 0.
+/// points and codes.
 HWY_INLINE Words relevant_code(const CubeView& cube, Floats squared, Words entry) {
   if (cube.winding_at_centre > 0) return hn::Set(du, greatest_radius_code);
-  const auto code = hn::BitCast(di, hn::And(entry, hn::Set(du, 0xffff)));
-  const auto bits = hn::Add(hn::Set(di, cube.scale.base), hn::ShiftLeftSame(code, cube.scale.shift));
-  const auto least = hn::IfThenZeroElse(hn::RebindMask(d, hn::Eq(code, hn::Zero(di))), hn::BitCast(d, bits));
+  const auto least = least_of(cube, entry);
   const auto harmonic = hn::Div(hn::Mul(squared, least), hn::Add(squared, least));
   const auto limit =
       hn::Add(hn::Mul(hn::Set(d, 4.0f), squared), hn::Sub(least, hn::Mul(hn::Set(d, 8.0f), harmonic)));
@@ -211,9 +216,7 @@ HWY_INLINE Words relevant_code(const CubeView& cube, Floats squared, Words entry
 /// The same of a surface that has drifted by d, from its triangles' least radii as they were: 2 r - (l - d) + d.
 HWY_INLINE Words relevant_code_drifted(const CubeView& cube, Floats squared, Words entry) {
   if (cube.winding_at_centre > 0) return hn::Set(du, greatest_radius_code);
-  const auto code = hn::BitCast(di, hn::And(entry, hn::Set(du, 0xffff)));
-  const auto bits = hn::Add(hn::Set(di, cube.scale.base), hn::ShiftLeftSame(code, cube.scale.shift));
-  const auto least = hn::IfThenZeroElse(hn::RebindMask(d, hn::Eq(code, hn::Zero(di))), hn::BitCast(d, bits));
+  const auto least = least_of(cube, entry);
   const auto limit = hn::Add(hn::Sub(hn::Mul(hn::Set(d, 2.0f), hn::Sqrt(squared)), hn::Sqrt(least)),
                              hn::Set(d, 2 * cube.drift.mm));
   const auto widened = hn::Mul(hn::Mul(limit, limit), hn::Set(d, 1 + 0x1p-12f));

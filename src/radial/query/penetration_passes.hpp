@@ -121,7 +121,7 @@ struct Decisions {
 /// Forms of triangles of a table that has none: measured where they are needed, each time.
 class FormsOnDemand {
  public:
-  /// Of each triangle, in their order; until the next call.
+  /// Returns the forms of the triangles, in their order; they stay until the next call.
   const EdgeFunctions* measure(const CubeView& cube, std::span<const std::uint32_t> triangles);
   /// How many were measured since this was last asked.
   std::size_t take_count() noexcept { return std::exchange(count_, 0); }

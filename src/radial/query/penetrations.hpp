@@ -7,7 +7,7 @@
 
 namespace condyle::radial {
 
-/// Scratch of the passes of a penetration query: 230 kB, on the heap; a table keeps one between queries. The rest, on
+/// Scratch of the passes of a penetration query: 230 kB, and 300 kB more after an update, on the heap; a table keeps one between queries. The rest, on
 /// the stack, stays below 16 kB, but for exact signs of coordinates that span more than 168 bits: these take some 30 kB more.
 struct PenetrationScratch {
   NearPoints near;

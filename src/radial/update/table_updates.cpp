@@ -65,10 +65,7 @@ void DirectionTable::update(PointsView vertices) {
 void DirectionTable::follow_all(const Points& before) {
   if (!cube()) return follow_on_paper_map();
   keep_rejection_parts(before);
-  if (follow_rows(mesh(), *cube(), table_)) {
-    // No longer those of the entries: none is too far out.
-    earlier_.parts.radii.nearest.assign(table_.entries.triangle.size(), 0);
-  }
+  if (follow_rows(mesh(), *cube(), table_)) earlier_.forget_nearest(table_.entries);
   forms_measured_.make_out_of_date();
   measured_on_demand_ = 0;
   settle_drift(move_corners());
@@ -103,8 +100,7 @@ void DirectionTable::keep_rejection_parts(const Points& before) {
 
 /// Some more vertices of a surface that has drifted have moved.
 void DirectionTable::drift_on(std::span<const Index> moved, std::span<const Index> triangles) {
-  if (follow_rows(mesh(), *cube(), moved, triangles, table_))
-    earlier_.parts.radii.nearest.assign(table_.entries.triangle.size(), 0);
+  if (follow_rows(mesh(), *cube(), moved, triangles, table_)) earlier_.forget_nearest(table_.entries);
   forms_measured_.make_out_of_date();
   double furthest = earlier_.drift->mm;
   for (const Index v : moved)
