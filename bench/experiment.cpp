@@ -371,8 +371,8 @@ class SceneRun {
     if (touching[1] > 0) outcome.touching_ratio = touching[0] / touching[1];
   }
 
-  /// Frame by frame: the body moves, then one pose is asked. Twice: what a method makes for the first deformation, and for
-  /// places where vertices have not been, it has then; the second time counts.
+  /// Frame by frame: the body moves, then one pose is asked. What a method makes for the first deformation, and for places where
+  /// vertices have not been, it has after going through all frames once; what counts comes then.
   void measure_deforming(Asked& asked, const MethodKind& kind, Outcome& outcome) {
     const Question question = outcome.question;
     const int frames = outcome.build_seconds * budget_.frames > budget_.seconds ? 2 : budget_.frames;

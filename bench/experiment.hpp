@@ -26,7 +26,7 @@ struct Budget {
   /// rounds, at least one.
   double seconds = 0.15;
   int rounds = 5;
-  int frames = 6;  ///< Of the deforming variant, gone through twice.
+  int frames = 6;  ///< Shapes of the deforming variant: gone through once, then `rounds` times that count.
   /// A method that was made ready for longer than this at a scene is not asked at larger ones of the family.
   double build_seconds = 20;
   /// One without an update that is made ready for longer than this is not made anew for the deforming

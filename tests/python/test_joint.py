@@ -101,10 +101,10 @@ def test_frames_of_a_motion_show_what_their_poses_show(hip):
 def test_arcs_go_about_any_axis_as_the_command_says(hip, hip_file):
     pose, axis, point = hip.pose(flexion_deg=140), [0.6, 0, -0.8], [5, -40, 7]
     for about, text in (("adduction", "adduction"), (axis, "0.6 0 -0.8"), ((axis, point), "0.6 0 -0.8 5 -40 7")):
-        told = json_of_command("depth", hip_file, "--pose", "flexion=140", "--method", "tangential", "--about", text, "--json")
+        reported = json_of_command("depth", hip_file, "--pose", "flexion=140", "--method", "tangential", "--about", text, "--json")
         inside, gaps = (ask(pose, "tangential", about=about) for ask in (hip.penetration, hip.gaps))
         for body, here in (("mobile", inside.mobile), ("fixed", inside.fixed)):
-            assert told["bodies"][body]["max_tangential_depth_mm"] == max(here.depth_mm[np.isfinite(here.depth_mm)]), (text, body)
+            assert reported["bodies"][body]["max_tangential_depth_mm"] == max(here.depth_mm[np.isfinite(here.depth_mm)]), (text, body)
         np.testing.assert_array_equal(-gaps.mobile.gap_mm[inside.mobile.vertex], inside.mobile.depth_mm)
     assert len(hip.penetration(lifted(3) @ pose, "tangential", about=(axis, point)).mobile)
     assert hip.picture(pose, about=(axis, point), width=80, height=64).shape == (64, 80, 3)
@@ -120,9 +120,9 @@ def test_frames_have_the_screws_of_the_command(hip, hip_file, tmp_path):
     screws = [frame.screw for frame in hip.contact_along(poses, screws=True)]
     assert screws[0] is None and screws[3].is_slide and screws[3].axis is None and screws[3].depth_deg is None
     for screw, row in zip(screws[1:3], rows[1:3]):
-        told = [float(row[f"screw_{of}"]) for of in ("rotation_deg", "axis_x", "axis_y", "axis_z", "point_x_mm", "point_y_mm", "point_z_mm",
+        reported = [float(row[f"screw_{of}"]) for of in ("rotation_deg", "axis_x", "axis_y", "axis_z", "point_x_mm", "point_y_mm", "point_z_mm",
                                                      "depth_deg", "depth_mm")]
-        assert told == [screw.rotation_deg, *screw.axis, *screw.point_mm, screw.depth_deg, screw.depth_mm]
+        assert reported == [screw.rotation_deg, *screw.axis, *screw.point_mm, screw.depth_deg, screw.depth_mm]
     inside = hip.penetration(poses[2], "tangential", about=(screws[2].axis, screws[2].point_mm))
     assert 0 < screws[2].depth_mm == pytest.approx(max(*inside.mobile.depth_mm, *inside.fixed.depth_mm), abs=1e-10)
     assert hip.contact_along(poses)[2].screw is None
