@@ -207,7 +207,7 @@ mujoco-limits:
 	@scripts/install_dependencies.sh node
 	@cmake --build --preset release --target condyle_cli
 	@mkdir -p build/mujoco && cp tests/npm/mujoco.mjs build/mujoco
-	@cd build/mujoco && if npm install --no-audit --no-fund --silent mujoco-js@0.0.7; then node mujoco.mjs ../release/condyle; \
+	@cd build/mujoco && if npm install --no-audit --no-fund --silent mujoco-js@0.0.7; then node mujoco.mjs "$(CURDIR)/build/release/condyle"; \
 	 else echo "mujoco-limits: skipped: npm has no mujoco-js"; fi
 
 # Layers of GetFEM's finite elements with our contact, held against closed forms; a picture in out/finite_elements.
