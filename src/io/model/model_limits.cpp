@@ -58,13 +58,26 @@ std::string element_text(std::string_view element, std::string_view value) {
 /// Replaces parts of a text at the places that its tree has in it.
 class EditedXml {
  public:
-  explicit EditedXml(std::string_view bytes) : bytes_(bytes) {}
+  explicit EditedXml(std::string_view bytes)
+      : bytes_(bytes), line_end_(bytes.find("\r\n") == bytes.npos ? "\n" : "\r\n") {}
 
-  /// Puts text behind an element's opening tag, and behind what was put there before.
-  void insert(const XmlElement& element, const std::string& text) {
+  /// Puts text behind an element's opening tag, and behind what was put there before. Its lines end as the others do.
+  void insert(const XmlElement& element, std::string text) {
     auto& [name, inserted] = inserted_[tag_end(element)];
     name = element.name;
+    for (std::size_t at = 0; line_end_.size() == 2 && (at = text.find('\n', at)) != text.npos; at += 2)
+      text.insert(at, 1, '\r');
     inserted += text;
+  }
+
+  /// Takes away what was inserted behind an element's opening tag before: a comment in lines of its own that has this word.
+  void remove_comment(const XmlElement& element, std::string_view word) {
+    const std::size_t at = tag_end(element) + 1;
+    const std::string begin = line_end_ + "<!--", end = "-->" + line_end_;
+    if (!bytes_.substr(at).starts_with(begin)) return;
+    const std::size_t last = bytes_.find(end, at);
+    if (last != bytes_.npos && bytes_.substr(at, last - at).find(word) != bytes_.npos)
+      edits_.push_back({at, last + end.size() - at, ""});
   }
 
   void set(const XmlElement& element, std::string_view property, const std::string& value) {
@@ -94,8 +107,10 @@ class EditedXml {
       else
         edits_.push_back({end + 1, 0, text});
     }
-    std::stable_sort(edits_.begin(), edits_.end(),
-                     [](const Edit& one, const Edit& other) { return one.at < other.at; });
+    // What is put at a place before what is taken away from there on.
+    std::stable_sort(edits_.begin(), edits_.end(), [](const Edit& one, const Edit& other) {
+      return std::pair(one.at, one.length) < std::pair(other.at, other.length);
+    });
     std::string out;
     std::size_t at = 0;
     for (const Edit& edit : edits_) {
@@ -129,6 +144,7 @@ class EditedXml {
   }
 
   std::string_view bytes_;
+  std::string line_end_;
   std::vector<Edit> edits_;
   std::map<std::size_t, std::pair<std::string_view, std::string>>
       inserted_;  ///< by where the opening tag ends
@@ -174,6 +190,7 @@ std::string with_limits(std::string_view model, const std::filesystem::path& pat
   const XmlElement* set = of_model->child("ForceSet");
   const XmlElement* forces = set ? set->child("objects") : nullptr;
   EditedXml edited(bytes);
+  edited.remove_comment(root, "# condyle_version: ");
   edited.insert(root, fmt::format("\n{}", comment));
   std::string added;
   for (const CoordinateRange& range : ranges) {
@@ -209,13 +226,15 @@ std::string with_limits(std::string_view model, const std::filesystem::path& pat
     else
       added += force_element(range, stop);
   }
-  if (forces)
-    edited.insert(*forces, "\n" + added);
-  else if (set)
-    edited.insert(*set, fmt::format("<objects>\n{}</objects>", added));
-  else
-    edited.insert(*of_model,
-                  fmt::format("\n<ForceSet name=\"forceset\"><objects>\n{}</objects></ForceSet>", added));
+  if (!added.empty()) {
+    if (forces)
+      edited.insert(*forces, "\n" + added);
+    else if (set)
+      edited.insert(*set, fmt::format("<objects>\n{}</objects>", added));
+    else
+      edited.insert(*of_model,
+                    fmt::format("\n<ForceSet name=\"forceset\"><objects>\n{}</objects></ForceSet>", added));
+  }
   return std::string(model.substr(0, model.size() - bytes.size())) + std::move(edited).text();
 }
 
