@@ -53,19 +53,22 @@ TEST_P(KeptInputs, KeepThePromiseInMemoryAndTimeInProportion) {
 TEST_P(KeptInputs, AreFewBytes) {
   std::uintmax_t bytes = 0;
   for (const auto& input : inputs_of(GetParam())) bytes += std::filesystem::file_size(input);
-  EXPECT_LE(bytes, 16384u);
+  EXPECT_LE(bytes, 20480u);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     EveryTarget, KeptInputs,
     testing::Values(Target{"mesh_reader", test::fuzz_mesh_reader},
                     Target{"label_file", test::fuzz_label_file}, Target{"model_file", test::fuzz_model_file},
+                    Target{"model_limits", test::fuzz_model_limits},
                     Target{"joint_file", test::fuzz_joint_file},
                     Target{"motion_file", test::fuzz_motion_file},
                     Target{"study_table", test::fuzz_study_table}, Target{"text", test::fuzz_text},
                     Target{"inspect", test::fuzz_inspect}, Target{"radial", test::fuzz_radial},
                     Target{"tangential", test::fuzz_tangential}, Target{"pairs", test::fuzz_pairs},
-                    Target{"first_contact", test::fuzz_first_contact}, Target{"results", test::fuzz_results}),
+                    Target{"first_contact", test::fuzz_first_contact}, Target{"turns", test::fuzz_turns},
+                    Target{"slides", test::fuzz_slides}, Target{"touch", test::fuzz_touch},
+                    Target{"results", test::fuzz_results}),
     [](const auto& target) { return target.param.name; });
 
 }  // namespace

@@ -1,26 +1,17 @@
 #include "condyle/first_contact.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "fuzz/brute_contact.hpp"
 #include "fuzz/fuzz_input.hpp"
 #include "fuzz/one_line.hpp"
 #include "fuzz/targets.hpp"
-#include "support/brute_force.hpp"
 
 namespace condyle::test {
 namespace {
 
 constexpr double largest_bound = 4e-12;  // rad, as promised
-
-/// At the pose; a triangle that is degenerate is none there either, though rounding may give it an area.
-bool meet(const TriMesh& fixed, const TriMesh& mobile, const Pose& X) {
-  const auto pairs = intersecting_pairs(fixed, posed(X, mobile));
-  return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
-    return !is_degenerate(fixed, pair.first) && !is_degenerate(mobile, pair.second);
-  });
-}
 
 bool names_a_feature(const motion::Feature& feature, const Mesh& mesh) {
   const std::size_t vertices = mesh.vertices().size();
@@ -64,7 +55,7 @@ std::string fault_of_half(const motion::FirstContact& bodies, const Pose& X,
 /// About the z axis through the origin nothing is rounded at the start, and no heights are on the way.
 std::string fault_of_poses(const motion::RotationLimits& limits, const TriMesh& fixed,
                            const TriMesh& mobile) {
-  const bool meets = meet(fixed, mobile, Pose::Identity());
+  const bool meets = surfaces_meet(fixed, mobile, Pose::Identity());
   if (meets && limits.free_at_start()) return "free at the start, where surfaces meet";
   if (!meets && limits.positive.reason == motion::LimitReason::contact_at_start && limits.positive.contact)
     return "in contact at the start by surfaces that do not meet";
@@ -73,7 +64,7 @@ std::string fault_of_poses(const motion::RotationLimits& limits, const TriMesh& 
   const auto meets_at = [&](double angle) {
     Pose X = Pose::Identity();
     X.linear() = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
-    return meet(fixed, mobile, X);
+    return surfaces_meet(fixed, mobile, X);
   };
   for (const double end : {-limits.negative.turned.radians(), limits.positive.turned.radians()}) {
     if (std::abs(end) < 1e-6) continue;

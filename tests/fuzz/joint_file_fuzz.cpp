@@ -3,6 +3,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/joint_checks.hpp"
 #include "fuzz/one_line.hpp"
 #include "fuzz/targets.hpp"
 #include "support/temporary_folder.hpp"
@@ -36,6 +37,12 @@ std::string fault_of(const Joint& joint) {
   for (const Mesh* mesh : {&joint.fixed.mesh, &joint.mobile.mesh}) {
     if (mesh->triangles().empty()) return "a body without triangles";
   }
+  for (const Ligament& ligament : joint.ligaments) {
+    if (!(ligament.slack_length_mm > 0)) return "a ligament without a slack length";
+    const auto state = ligament_state(ligament, Pose::Identity());
+    if (state && !(state->length_mm >= 0 && state->strain >= -1 && state->tension_n >= 0))
+      return "a ligament whose length is none";
+  }
   return {};
 }
 
@@ -44,8 +51,11 @@ std::string fault_of(const Joint& joint) {
 std::string fuzz_joint_file(std::string_view bytes) {
   const std::filesystem::path path = folder_with_bones().file("x.toml", bytes);
   try {
-    const std::string fault = fault_of(io::read_joint_file(path));
-    return fault.empty() ? fault_of(io::read_joint(path).joint) : fault;
+    if (std::string fault = fault_of(io::read_joint_file(path)); !fault.empty()) return fault;
+    const io::LoadedJoint loaded = io::read_joint(path);
+    for (const JointNote& note : check_ligaments(loaded.joint, loaded.report.placement))
+      if (auto fault = fault_of_message(note.text); !fault.empty()) return fault;
+    return fault_of(loaded.joint);
   } catch (const FileError& error) {
     return fault_of_message(error.what(), (folder_with_bones().path() / "").string());
   } catch (const MeshError& error) {

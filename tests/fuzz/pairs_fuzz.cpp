@@ -3,6 +3,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "fuzz/brute_contact.hpp"
 #include "fuzz/fuzz_input.hpp"
 #include "fuzz/one_line.hpp"
 #include "fuzz/targets.hpp"
@@ -25,15 +26,6 @@ std::vector<contact::TrianglePair> all_pairs(const TriMesh& fixed, const TriMesh
     if (!is_degenerate(fixed, i) && !is_degenerate(mobile, j)) pairs.push_back({i, j});
   }
   return pairs;
-}
-
-/// Whether a corner of `a` is in the solid of `b`, an inside being what closed meshes have.
-bool corner_inside(const TriMesh& a, const Mesh& b) {
-  if (!b.is_closed()) return false;
-  for (std::size_t t = 0; t < a.triangles.size(); ++t) {
-    if (winding_number(b, a.corner(t, 0)).winding > 0) return true;
-  }
-  return false;
 }
 
 }  // namespace

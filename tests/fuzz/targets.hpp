@@ -17,6 +17,8 @@ std::string fuzz_mesh_reader(std::string_view bytes);
 std::string fuzz_label_file(std::string_view bytes);
 /// A model of OpenSim: its joints have poses, and what is proposed for them is a joint file.
 std::string fuzz_model_file(std::string_view bytes);
+/// The first byte chooses the force, the rest is a model of OpenSim into which limits are written.
+std::string fuzz_model_limits(std::string_view bytes);
 /// A joint file, beside a mesh for both its bodies.
 std::string fuzz_joint_file(std::string_view bytes);
 /// The first byte chooses .mot, .sto or .csv, the rest is the file: columns, times, coordinates and poses.
@@ -38,6 +40,12 @@ std::string fuzz_tangential(std::string_view bytes);
 std::string fuzz_pairs(std::string_view bytes);
 /// Both ends of a free rotation, against poses on the way by brute force.
 std::string fuzz_first_contact(std::string_view bytes);
+/// All free angles of a turn about the z axis, against poses by brute force.
+std::string fuzz_turns(std::string_view bytes);
+/// All free positions of a slide along it, against poses by brute force.
+std::string fuzz_slides(std::string_view bytes);
+/// Two meshes at a pose: contact and pairs against brute force, measures by what they must keep.
+std::string fuzz_touch(std::string_view bytes);
 /// Meshes and curves written and read back, and the JSON of an inspection.
 std::string fuzz_results(std::string_view bytes);
 
