@@ -1,5 +1,8 @@
 #include <cmath>
+#include <iterator>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -8,10 +11,13 @@
 #include "fuzz/targets.hpp"
 #include "io/joint/grid_text.hpp"
 #include "io/result/repair_text.hpp"
+#include "io/sweep/target_table.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle::test {
 namespace {
+
+constexpr std::string_view targets_name = "targets.csv";
 
 Joint joint_of(JointKind kind, Anatomy anatomy) {
   static const Mesh fixed = box({-1, -1, -1}, {1, 1, 1}), mobile = box({2, -1, -1}, {3, 1, 1});
@@ -58,6 +64,25 @@ std::string fault_of_axis(std::string_view text, JointKind kind, Anatomy anatomy
   return grid.size() <= motion::most_map_points ? "" : "a map of too many points";
 }
 
+/// Axes between spaces.
+std::string fault_of_grid(std::string_view text, JointKind kind, Anatomy anatomy) {
+  std::istringstream words{std::string(text)};
+  const std::vector<std::string> axes{std::istream_iterator<std::string>(words), {}};
+  const motion::MapGrid grid = io::parse_grid(axes, "", anatomy);
+  motion::check_grid(grid, kind);
+  return grid.size() <= motion::most_map_points ? "" : "a map of too many points";
+}
+
+std::string fault_of_targets(std::string_view text, JointKind kind, Anatomy anatomy) {
+  const auto motions = motion::built_in_motions(kind, anatomy);
+  for (const plan::SweepTarget& target : io::parse_targets(text, targets_name, motions, kind, anatomy)) {
+    if (!(target.reach > Angle() && target.weight > 0)) return "a target without a reach or a weight";
+    if (!std::isfinite(target.reach.radians() + target.pelvic_tilt.radians() + target.weight))
+      return "a target that is not finite";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string fuzz_text(std::string_view bytes) {
@@ -67,7 +92,7 @@ std::string fuzz_text(std::string_view bytes) {
   const Anatomy anatomy = all_anatomies[first / 3 % all_anatomies.size()];
   const std::string_view text = bytes.substr(2);
   try {
-    switch (second % 5) {
+    switch (second % 7) {
       case 0:
         return fault_of_pose(text, kind, anatomy);
       case 1:
@@ -76,12 +101,18 @@ std::string fuzz_text(std::string_view bytes) {
         return fault_of_axis(text, kind, anatomy);
       case 3:
         return io::name_of(io::repair_named(text)) == text ? "" : "a repair of another name";
+      case 5:
+        return fault_of_grid(text, kind, anatomy);
+      case 6:
+        return fault_of_targets(text, kind, anatomy);
       default:
         return name_of(io::joint_angle_named(text, anatomy), anatomy) == text ? ""
                                                                               : "an angle of another name";
     }
   } catch (const UsageError& error) {
     return fault_of_message(error.what());
+  } catch (const FileError& error) {
+    return fault_of_message(error.what(), targets_name);
   }
 }
 
