@@ -285,7 +285,14 @@ std::vector<RangeNote> notes_on_limits(const Joint& joint, const SweepRequest& r
                                        const SweepAnswer& sweep) {
   if (std::isnan(sweep.limits_here.front().turned_deg)) return {};
   std::vector<motion::Motion> motions;
-  for (const plan::SweepTarget& target : request.targets) motions.push_back(target.without_tilt());
+  for (const plan::SweepTarget& target : request.targets) {
+    const motion::Motion motion = target.without_tilt();
+    const auto is_same = [&](const motion::Motion& other) {
+      return other.name == motion.name && other.vary == motion.vary && other.sense == motion.sense &&
+             other.start == motion.start && other.range == motion.range;
+    };
+    if (std::none_of(motions.begin(), motions.end(), is_same)) motions.push_back(motion);
+  }
   const motion::RangeOfMotion range(joint, request.range);
   return range_notes(joint, range.limits(motions), request.range, range.bearing());
 }

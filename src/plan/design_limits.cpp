@@ -168,6 +168,8 @@ struct DesignLimits::Parts {
   std::vector<EndingPair> names;
   std::vector<Turn> turns;
   std::vector<std::size_t> turn_of;  ///< of each target: targets of one motion share it
+  /// Of each target the first one of the same motion and reach, whose limit is its own.
+  std::vector<std::size_t> first_like;
   std::size_t turns_with_tables = 0;
   std::vector<core::Lazy<Table>> tables;  ///< by mesh and turn, of meshes that do not move
   mutable std::vector<Kept> kept;         ///< by pair and turn
@@ -190,6 +192,7 @@ struct DesignLimits::Parts {
   void add_turns(const JointAngles& reference_pose) {
     using Key = std::tuple<JointAngle, RotationSense, double, double, double, double>;
     std::map<Key, std::size_t> known;
+    std::map<std::pair<std::size_t, double>, std::size_t> known_reaches;
     const auto add = [&](const motion::Motion& motion) {
       turns.push_back({motion, pose_at(joint.coordinates(), motion.start),
                        axis_of(motion.vary, joint.coordinates(), motion.start) * sign_of(motion.sense)});
@@ -206,6 +209,8 @@ struct DesignLimits::Parts {
       const auto [at, is_new] = known.emplace(key, turns.size());
       if (is_new) add(motion);
       turn_of.push_back(at->second);
+      first_like.push_back(
+          known_reaches.try_emplace({at->second, target.reach.radians()}, first_like.size()).first->second);
     }
     add({.name = "reference pose", .start = reference_pose});
   }
@@ -467,6 +472,10 @@ void DesignLimits::limits(std::span<const double> values, std::span<DesignLimit>
     return;
   }
   for (std::size_t t = 0; t < out.size(); ++t) {
+    if (parts_->first_like[t] < t) {
+      out[t] = out[parts_->first_like[t]];
+      continue;
+    }
     const Parts::Best end =
         parts_->first_end(parts_->turn_of[t], parts_->turns[parts_->turn_of[t]].motion.range,
                           parts_->targets[t].reach, form, parts, values);
@@ -479,6 +488,7 @@ bool DesignLimits::reaches_all(std::span<const double> values) const {
   const ClosedForm form = closed_form(parts_->joint, parts);
   if (parts_->reference_end(form, parts, values)) return false;
   for (std::size_t t = 0; t < parts_->targets.size(); ++t) {
+    if (parts_->first_like[t] < t) continue;
     const Angle reach = parts_->targets[t].reach;
     const Parts::Best end = parts_->first_end(parts_->turn_of[t], reach, reach, form, parts, values);
     if (end.ended.reason != motion::LimitReason::end_of_range && end.ended.turned < reach.radians())
@@ -495,6 +505,7 @@ std::string DesignLimits::difference_from_form(std::span<const double> values) c
   for (const Parts::PairOfMeshes& pair : parts_->pairs) {
     if (pair.known != Parts::PairOfMeshes::Known::by_form) continue;
     for (std::size_t t = 0; t < parts_->targets.size(); ++t) {
+      if (parts_->first_like[t] < t) continue;
       const std::size_t turn = parts_->turn_of[t];
       const motion::Motion& motion = parts_->turns[turn].motion;
       const Angle turned = Angle::radians(parts_->search(pair, turn, parts, values, motion.range).turned);
