@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little,
 /// XML PolyData of one piece, as VTK's own reader, ParaView and 3D Slicer read it: arrays appended raw and compressed by zlib
 /// in blocks, or written as text.
 ///
-///     <VTKFile><PolyData><FieldData/><Piece><PointData/><CellData/><Points/><Polys/></Piece></PolyData>
+///     <VTKFile><PolyData><Piece><PointData/><CellData/><Points/><Polys/></Piece><FieldData/></PolyData>
 ///       <AppendedData encoding="raw">_ array array ... </AppendedData></VTKFile>
 ///     array:  blocks, size of each, size of the last one if it is smaller, compressed sizes: 64 bits each; blocks
 
@@ -173,7 +173,6 @@ std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arra
       fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
                   "byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n<PolyData>\n",
                   options.encoding == VtpEncoding::binary ? " compressor=\"vtkZLibDataCompressor\"" : ""));
-  add_fields(out, options.fields);
   out.add(
       fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
                   "NumberOfPolys=\"{}\">\n",
@@ -185,7 +184,10 @@ std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arra
   else
     add_points<double>(out, mesh.vertices);
   add_triangles(out, mesh.triangles);
-  out.add("</Piece>\n</PolyData>\n");
+  out.add("</Piece>\n");
+  // Last, so that the surface is the same bytes wherever its files lie.
+  add_fields(out, options.fields);
+  out.add("</PolyData>\n");
   return std::move(out).document();
 }
 
