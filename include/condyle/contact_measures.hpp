@@ -42,7 +42,8 @@ struct ContactMeasures {
   NearestPoints nearest;
   /// Empty if the other mesh is open and nothing can be inside it.
   std::optional<ContactPatch> mobile, fixed;
-  /// The space that is inside both counts, each point as often as the bodies cover it; empty if either mesh is open.
+  /// The space that is inside both counts, each point as often as the bodies cover it; empty if either mesh is open, or is
+  /// inside out there because it crosses itself.
   std::optional<double> volume_mm3;
   /// No more than this is the volume off by what the computation rounds; vertices as placed in F are taken as exact.
   double volume_error_mm3 = 0;

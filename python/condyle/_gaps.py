@@ -188,7 +188,7 @@ class ContactMeasures:
     mobile, fixed : ContactPatch or None
         None where the other mesh is open.
     volume_mm3 : float or None
-        Volume of the space inside both, each point as often as the bodies cover it; None if either mesh is open.
+        Volume of the space inside both, each point as often as the bodies cover it; None if either mesh is open, or inside out there.
     volume_error_mm3 : float
         A bound on what the volume is off by rounding.
     mobile_covered_again_mm3, fixed_covered_again_mm3 : float

@@ -217,7 +217,10 @@ class Touch {
     if (fixed_is_solid_) overlap.mobile_area_mm2 = area_of(found.mobile);
     if (mobile_is_solid_) overlap.fixed_area_mm2 = area_of(found.fixed);
     if (area > 0) overlap.centroid = moment / area;
-    if (!fixed_is_solid_ || !mobile_is_solid_) return;
+    for (const auto& [name, mesh] :
+         {std::pair("the fixed body", &bodies_.fixed()), {"the mobile body", &bodies_.mobile()}})
+      if (auto note = kinematics::self_crossing_note(name, *mesh)) answer_.notes.push_back(std::move(*note));
+    if (!fixed_is_solid_ || !mobile_is_solid_ || !found.has_volume()) return;
     overlap.volume_mm3 = found.volume, overlap.volume_error_mm3 = found.volume_error;
     overlap.fixed_covered_again_mm3 = found.fixed_covered_again;
     overlap.mobile_covered_again_mm3 = found.mobile_covered_again;

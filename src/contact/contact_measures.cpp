@@ -102,7 +102,7 @@ ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, con
   const Sums of_fixed = sums_of(overlap.fixed, [&](const Vec3& p_F) { return to_mobile(posed(X_MF, p_F)); });
   if (meeting.mobile) out.mobile = patch_from(of_mobile);
   if (meeting.fixed) out.fixed = patch_from(of_fixed);
-  if (meeting.mobile && meeting.fixed) {
+  if (meeting.mobile && meeting.fixed && overlap.has_volume()) {
     out.volume_mm3 = overlap.volume;
     out.volume_error_mm3 = overlap.volume_error;
     out.mobile_covered_again_mm3 = overlap.mobile_covered_again;

@@ -27,6 +27,8 @@ struct Overlap {
   /// Integral over space of the product of both winding numbers: the volume, where neither is above 1. mm^3, with a bound on its
   /// error: what all roundings after the vertices in F can amount to.
   double volume = 0, volume_error = 0;
+  /// Below 0 it is none: a body that crosses itself is inside out there.
+  [[nodiscard]] bool has_volume() const noexcept { return volume >= -volume_error; }
   /// How much of that is counted again because a body covers space of the overlap more than once, mm^3: the integral of w - 1 where w is
   /// above 1 and the other body is. 0 if it is no more than rounding.
   double fixed_covered_again = 0, mobile_covered_again = 0;

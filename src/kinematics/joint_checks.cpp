@@ -26,17 +26,12 @@
 #include "kinematics/surface_notes.hpp"
 #include "kinematics/turned_leg.hpp"
 #include "mesh/enclosed_volume.hpp"
-#include "mesh/self_crossings.hpp"
 #include "mesh/surface_pieces.hpp"
 
 namespace condyle {
 namespace {
 
 using core::formatted;
-
-/// The share of the surface that may cross itself unmentioned: 5 mm by 5 on a femur. Letters engraved into a real hip
-/// bone take a twentieth of it, two overlapping pieces of bone ten times as much.
-constexpr double largest_crossing_share = 5e-4;
 
 /// Shares of a sphere: femoral heads have 0.7 and more, half resected ones 0.4; sockets have 0.3.
 constexpr double fullest_stray_sphere = 0.4, least_socket_coverage = 0.2;
@@ -131,21 +126,7 @@ void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
   }
   notes.add(kinematics::piece_notes(body.name, body.mesh, is_cut));
   notes.add(kinematics::surface_notes(body.name, body.mesh));
-  const mesh::SelfCrossings& crossings = mesh::self_crossings_of(body.mesh);
-  if (crossings.pairs == 0) return;
-  double crossing = 0, area = 0;
-  for (std::size_t t = 0; t < body.mesh.triangles().size(); ++t) {
-    const Vec3 a = body.mesh.corner(t, 0);
-    const double here = (body.mesh.corner(t, 1) - a).cross(body.mesh.corner(t, 2) - a).norm();
-    area += here;
-    if (crossings.crosses[t]) crossing += here;
-  }
-  if (crossing > largest_crossing_share * area)
-    notes.add(JointNoteCode::self_crossings,
-              body.name + formatted(" crosses itself: %zu pairs of triangles, the first %u and %u, on %.2g "
-                                    "%% of its surface; inside and outside are uncertain there",
-                                    crossings.pairs, (*crossings.first)[0], (*crossings.first)[1],
-                                    100 * crossing / area));
+  if (auto note = kinematics::self_crossing_note(body.name, body.mesh)) notes.add({std::move(*note)});
 }
 
 void check_cuts(const Body& body, Notes& notes) {

@@ -140,7 +140,8 @@ struct FreeTranslation {
 
 /// Of a body that has no inside, and of the other's surface in it, nothing.
 struct TouchOverlap {
-  /// The space inside both, each point as often as the bodies cover it, and by how much it may be off by rounding.
+  /// The space inside both, each point as often as the bodies cover it, and by how much it may be off by rounding. Empty too where a body
+  /// that crosses itself is inside out there.
   std::optional<double> volume_mm3 = {};
   double volume_error_mm3 = 0;
   /// How much of it is counted again because a body covers it more than once: it crosses itself or has triangles twice.

@@ -125,9 +125,9 @@ inline constexpr auto table<TouchRecord> = record(
           "along rays from `--centre`, as `condyle depth --method radial` has it: of the deepest vertex "
           "whose ray "
           "is a depth; null without a centre or contact, and if a body has no inside"),
-    field(
-        "volume_mm3", &TouchRecord::volume_mm3,
-        "of the space inside both; null without contact, without `--measures`, and if a body has no inside"),
+    field("volume_mm3", &TouchRecord::volume_mm3,
+          "of the space inside both; null without contact, without `--measures`, and if a body has no inside "
+          "or is inside out there, as one that crosses itself may be"),
     field("volume_error_mm3", &TouchRecord::volume_error_mm3, "it is off by no more"),
     field("fixed_area_mm2", &TouchRecord::fixed_area_mm2,
           "of the fixed body's surface inside the mobile body"),
