@@ -16,6 +16,7 @@
 #include "mesh/surface_to_surface.hpp"
 #include "motion/rom/ligament_limits.hpp"
 #include "motion/rom/overlap.hpp"
+#include "motion/search/add_free_interval.hpp"
 #include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
 #include "motion/search/free_slides.hpp"
@@ -50,9 +51,6 @@ struct IncludedBody {
     return feature;
   }
 };
-
-/// Narrower ones may be what rounding leaves between two contacts, and are none.
-constexpr Angle narrowest_interval = Angle::radians(1e-9);
 
 /// Taken off the ends of arcs, which err by 1e-7 rad at most; narrower arcs are not worth their sorting.
 constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees(1);
@@ -426,14 +424,12 @@ FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
     for (const Angle shift : {-full_turn, Angle()}) {
       const Angle low = std::max(gap.start + shift, range.negative);
       const Angle high = std::min(gap.start + gap.width + shift, range.positive);
-      if (!(high - low > narrowest_interval)) continue;
+      if (!(high - low > narrowest_free_turn)) continue;
       // The gap is free or, one body inside the other, all contact; its ends are computed as limits are.
       const Angle middle = low + (high - low) * 0.5;
       const RotationLimits both = parts_->first_end(worker, vary, turned_by(start, vary, middle),
                                                     {range.negative - middle, range.positive - middle});
-      if (both.free_at_start())
-        free.intervals.push_back(
-            {middle - both.negative.turned, middle + both.positive.turned, both.negative, both.positive});
+      if (both.free_at_start()) add_free_interval(free.intervals, middle, both);
     }
   }
   std::sort(free.intervals.begin(), free.intervals.end(),

@@ -4,15 +4,13 @@
 #include "contact/body_pair.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/rotation_about.hpp"
+#include "motion/search/add_free_interval.hpp"
 #include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
 #include "motion/search/start_contact.hpp"
 
 namespace condyle::motion {
 namespace {
-
-/// Narrower intervals are not told from contact.
-constexpr Angle narrowest_turn = Angle::radians(1e-9);
 
 Pose turned_about(const AxisFrame& axis, Angle by, const Pose& X) {
   const Eigen::Matrix3d R = core::rotation_about(axis.direction(), by.radians());
@@ -33,8 +31,8 @@ void touch_at_start(const ContactWitness& touching, FreeAngles& free) {
     free.intervals.erase(free.intervals.begin());
     before.low = before.low + turn, before.high = turn, before.at_high = start;
     after.low = Angle(), after.at_low = start;
-    if (after.high > narrowest_turn) free.intervals.insert(free.intervals.begin(), after);
-    if (turn - before.low > narrowest_turn) free.intervals.push_back(before);
+    if (after.high > narrowest_free_turn) free.intervals.insert(free.intervals.begin(), after);
+    if (turn - before.low > narrowest_free_turn) free.intervals.push_back(before);
   }
   free.from_start.negative = free.from_start.positive = start;
 }
@@ -60,14 +58,12 @@ FreeAngles free_turns_in_its_frame(const Mesh& fixed, const Mesh& mobile, const 
     free.intervals.push_back({-negative.turned, positive.turned, negative, positive});
   }
   for (const core::Arc& gap : motion::contact_set(table, rotating, core::ArcSet(known)).complement().arcs()) {
-    if (!(gap.width > narrowest_turn)) continue;
+    if (!(gap.width > narrowest_free_turn)) continue;
     // The gap is free or, one body inside the other, all contact; its ends are computed as first contacts are.
     const Angle middle = gap.start + gap.width * 0.5;
     rotating.start_at(axis_F, turned_about(axis_F, middle, X_FM));
     const RotationLimits both = motion::first_contact(table, rotating);
-    if (both.free_at_start())
-      free.intervals.push_back(
-          {middle - both.negative.turned, middle + both.positive.turned, both.negative, both.positive});
+    if (both.free_at_start()) add_free_interval(free.intervals, middle, both);
   }
   std::sort(free.intervals.begin(), free.intervals.end(),
             [](const FreeInterval& a, const FreeInterval& b) { return a.low < b.low; });
