@@ -7,6 +7,13 @@
 
 namespace condyle::test {
 
+bool has_degenerate(const TriMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (is_degenerate(mesh, t)) return true;
+  }
+  return false;
+}
+
 bool surfaces_meet(const TriMesh& fixed, const TriMesh& mobile, const Pose& X) {
   const auto pairs = intersecting_pairs(fixed, posed(X, mobile));
   return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
@@ -14,10 +21,11 @@ bool surfaces_meet(const TriMesh& fixed, const TriMesh& mobile, const Pose& X) {
   });
 }
 
-bool corner_inside(const TriMesh& a, const Mesh& b) {
+bool corner_inside(const TriMesh& a, const Pose& X, const Mesh& b) {
   if (!b.is_closed()) return false;
+  const TriMesh placed = posed(X, a);
   for (std::size_t t = 0; t < a.triangles.size(); ++t) {
-    if (winding_number(b, a.corner(t, 0)).winding > 0) return true;
+    if (!is_degenerate(a, t) && winding_number(b, placed.corner(t, 0)).winding > 0) return true;
   }
   return false;
 }

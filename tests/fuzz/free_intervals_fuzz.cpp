@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "answer/require_surface.hpp"
 #include "condyle/error.hpp"
 #include "condyle/first_contact.hpp"
 #include "fuzz/brute_contact.hpp"
@@ -44,12 +45,12 @@ std::string fault_of(const Free& free, const std::vector<double>& asked, const M
     int met = 0;
     for (const double off : std::array{-free.apart, 0.0, free.apart}) {
       const Pose X = pose_at(at + off);
-      const TriMesh placed = posed(X, plain);
-      met += surfaces_meet(fixed, plain, X) || corner_inside(placed, fixed) ||
-             corner_inside(fixed, mobile.moved_to(placed.vertices));
+      met += surfaces_meet(fixed, plain, X) || corner_inside(plain, X, fixed) ||
+             corner_inside(fixed, Pose::Identity(), mobile.moved_to(posed(X, plain).vertices));
     }
     if (is_free && met == 3) return "surfaces that meet in a free interval";
-    if (!is_free && met == 0) return "nothing that meets where no interval is";
+    if (!is_free && met == 0 && !has_degenerate(fixed) && !has_degenerate(mobile))
+      return "nothing that meets where no interval is";
   }
   return {};
 }
@@ -71,7 +72,10 @@ std::string fuzz_turns(std::string_view bytes) {
   FuzzInput input(bytes);
   return without_errors([&]() -> std::string {
     const Mesh fixed = input.mesh(), mobile = input.mesh();
+    for (const Mesh* mesh : std::array{&fixed, &mobile}) require_surface(*mesh, "a body");
     const auto turns = motion::free_turns(fixed, mobile, AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
+    for (std::size_t i = 0; i + 1 < turns.intervals.size(); ++i)
+      if (turns.intervals[i + 1].low < turns.intervals[i].high) return "intervals that overlap";
     Free free{{}, 1e-6};
     // A whole turn from wherever the first one begins.
     for (const double turn : std::array{-two_pi, 0.0, two_pi})
@@ -84,7 +88,7 @@ std::string fuzz_turns(std::string_view bytes) {
       else
         ++i;
     std::vector<double> asked;
-    for (int i = 0; i < 16; ++i) asked.push_back(two_pi * (i + 0.37) / 16);
+    for (int i = 0; i < 6; ++i) asked.push_back(two_pi * (i + 0.37) / 6);
     return fault_of(free, asked, fixed, mobile, [](double angle) {
       Pose X = Pose::Identity();
       X.linear() = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
@@ -97,6 +101,7 @@ std::string fuzz_slides(std::string_view bytes) {
   FuzzInput input(bytes);
   return without_errors([&]() -> std::string {
     const Mesh fixed = input.mesh(), mobile = input.mesh();
+    for (const Mesh* mesh : std::array{&fixed, &mobile}) require_surface(*mesh, "a body");
     const auto slides = motion::free_slides(fixed, mobile, Vec3::UnitZ());
     double size = 0;
     for (const Mesh* mesh : std::array{&fixed, &mobile})
@@ -106,7 +111,7 @@ std::string fuzz_slides(std::string_view bytes) {
     for (const auto& each : slides.intervals)
       free.intervals.push_back({each.low.at_mm.value_or(-8 * size), each.high.at_mm.value_or(8 * size)});
     std::vector<double> asked;
-    for (int i = -16; i <= 16; ++i) asked.push_back(size * (i + 0.37) / 8);
+    for (int i = -3; i < 3; ++i) asked.push_back(size * (i + 0.37) / 2);
     return fault_of(free, asked, fixed, mobile, [](double along) {
       Pose X = Pose::Identity();
       X.translation().z() = along;
