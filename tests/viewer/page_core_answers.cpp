@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "condyle/answer/case.hpp"
+#include "condyle/answer/depth.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
 #include "page_core.hpp"
@@ -157,6 +158,29 @@ void answer_depth(CondyleJoint* joint, const double* question, const double X[16
     for (const double value : nearest) answers << ' ' << bits(value);
   }
   answers << '\n';
+}
+
+/// The movement from the question before; of an axis the command's depths about it are those of the page.
+void answer_screw(const CondyleJoint* joint, const double before[16], const double X[16],
+                  std::ostream& answers) {
+  double screw[9];
+  checked(condyle_screw(joint, before, X, screw));
+  answers << "screw";
+  for (const double value : screw) answers << ' ' << (std::isnan(value) ? "none" : bits(value));
+  answers << '\n';
+  if (std::isnan(screw[1])) return;
+  const contact::AxisLine axis{{screw[1], screw[2], screw[3]}, {screw[4], screw[5], screw[6]}};
+  const DepthAnswer commands = answer_depth(
+      joint->bodies, joint->joint, {.X_FM = pose_of(X), .method = DepthMethod::tangential, .about = axis});
+  double deg = 0, mm = 0;
+  const contact::TangentialContact& arcs = std::get<ArcDepths>(commands.depths).contact;
+  for (const auto& body : {arcs.mobile_in_fixed, arcs.fixed_in_mobile})
+    if (const auto summary = contact::summarise(*body); summary.deepest) {
+      deg = std::max(deg, summary.largest_angle->depth.degrees());
+      mm = std::max(mm, summary.deepest->depth_mm);
+    }
+  if (!std::isnan(screw[7]) && (deg != screw[7] || mm != screw[8]))
+    throw std::runtime_error("the command's depth about the axis of a movement is " + std::to_string(deg));
 }
 
 /// What the pose is to the limits; `limits` are those by which the command judges it.
@@ -375,14 +399,17 @@ void answer(const Scene& scene, const std::string& folder) {
   const auto limits = limits_of_poses(joint->joint);
   const std::size_t vertices[] = {scene.mobile.size() / 3, scene.fixed.size() / 3};
   std::ofstream answers(folder + "/answers.txt"), shown(folder + "/shown.bin", std::ios::binary);
+  double X[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   for (std::size_t i = 0; i < scene.questions.size() / 6; ++i) {
-    double X[16];
+    double before[16];
+    std::copy_n(X, 16, before);
     answer_pose(joint, &scene.questions[6 * i], X, answers);
     constexpr std::size_t every = 50;  // distances of all vertices take long
     if (i % every == 0) answer_shown(joint, X, vertices, shown);
     constexpr std::size_t every_depth = 10;  // tables about the joint's axes are made for each
     if (i % every_depth == 0) {
       answer_depth(joint, &scene.questions[6 * i], X, answers);
+      answer_screw(joint, before, X, answers);
       answer_standing(joint, *limits, &scene.questions[6 * i], X, answers);
     }
   }

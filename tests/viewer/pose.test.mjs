@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { test } from "node:test";
-import { has, openPage, pathOf, reports, root, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
+import { angleOf, has, keep, openPage, pathOf, reports, root, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -87,7 +87,7 @@ test("the pose of a limit is that limit from a link, a field, undo or a copy, wi
   await page.context().close();
 });
 
-const depthOf = (joint, pose) => JSON.parse(execFileSync(join(root, "build/release/condyle"), ["depth", join(reports, joint), "--pose", pose, "--json"],
+const depthOf = (joint, pose, ...how) => JSON.parse(execFileSync(join(root, "build/release/condyle"), ["depth", join(reports, joint), "--pose", pose, "--json", ...how],
   { stdio: ["ignore", "pipe", "ignore"] }));
 
 test("a limit that is none of the report's has its motion and bodies named", async () => {
@@ -99,6 +99,31 @@ test("a limit that is none of the report's has its motion and bodies named", asy
   const { state, nearest_limit } = depthOf("sample/hip.toml", `flexion=100 adduction=10 internal_rotation=${end}`);
   assert.equal(state, "at_limit");
   assert.equal(await saidOf(page, "limit"), `At the limit of ${nearest_limit.movement.replaceAll("_", " ")}, first contact: femur on hip bone`);
+  await page.context().close();
+});
+
+test("turned by a slider into contact, the joint turns back about that movement as far as the command says", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { fragment: "#flexion=138&adduction=5" });
+  const said = page.locator("#last-movement");
+  await saidOf(page, "contact");
+  await page.waitForTimeout(600);
+  assert.equal(await said.textContent(), "", "nothing has moved yet");
+  await page.locator("#angle-flexion").focus();
+  for (let i = 0; i < 12; ++i) await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => document.getElementById("last-movement").textContent !== "");
+  const flexion = await angleOf(page, "flexion"), depth = (about) =>
+    depthOf("sample/hip.toml", `flexion=${flexion} adduction=5`, "--method", "tangential", `--about=${about}`);
+  const { max_tangential_depth_deg: deg, max_tangential_depth_mm: mm } = depth("flexion");
+  assert.ok(flexion > 139 && deg > 1, `${deg} at ${flexion}`);
+  assert.equal(await said.textContent(), `${deg.toFixed(1)}° (${mm.toFixed(1)} mm) about the last movement`);
+  await keep(page, "last_movement");
+  // About the very line of a movement, the very bits.
+  const screw = await page.evaluate((at) => condyle.query({ of: "screw", at, before: { angles: [90, -10, 20], translation: [0, 0, 0] } }),
+    { angles: [flexion, 5, 0], translation: [0, 0, 0] });
+  const commands = depth([...screw.axis.direction, ...screw.axis.point].join(" "));
+  assert.deepEqual([screw.depth_deg, screw.depth_mm], [commands.max_tangential_depth_deg, commands.max_tangential_depth_mm]);
+  await turnTo(page, { flexion: 90 });
+  assert.equal(await said.textContent(), "");
   await page.context().close();
 });
 

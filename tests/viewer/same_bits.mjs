@@ -25,11 +25,11 @@ const penetrations = (ofFixed) => {
 };
 const equal = (native, page) => native.length === page.length && native.every((value, i) => Object.is(value, page[i]));
 
-const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(64), depth = core._malloc(128);
+const pose = core._malloc(128), before = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(64), depth = core._malloc(128);
 const values = core._malloc(4 * Math.max(...vertexCount)), marks = core._malloc(Math.max(...vertexCount));
 const wrong = [], states = new Set();
 const count = {
-  answers: 0, poses: 0, depths: 0, limits: 0, penetrating: 0, shown: 0, coloured: 0, mapPoints: 0, intervals: 0,
+  answers: 0, poses: 0, depths: 0, screws: 0, limits: 0, penetrating: 0, shown: 0, coloured: 0, mapPoints: 0, intervals: 0,
 };
 let shownAt = 0;
 
@@ -54,6 +54,7 @@ function compareShown() {
 const answerers = {
   pose(fields) {
     const at = 6 * count.poses;
+    f64(before, 16).set(count.poses ? f64(pose, 16) : [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
     f64(angles, 3).set(questions.subarray(at, at + 3));
     f64(translation, 3).set(questions.subarray(at + 3, at + 6));
     checked(core._condyle_pose(joint, angles, translation, pose));
@@ -75,6 +76,11 @@ const answerers = {
     checked(core._condyle_depth(joint, pose, angles, depth));
     ++count.depths;
     return Array.from(f64(depth, 16), (value) => (Number.isNaN(value) ? "none" : bits(value))).join(" ");
+  },
+  screw() {
+    checked(core._condyle_screw(joint, before, pose, depth));
+    ++count.screws;
+    return Array.from(f64(depth, 9), (value) => (Number.isNaN(value) ? "none" : bits(value))).join(" ");
   },
   // Distances are rounded to 1e-12 of coordinates, which are below 1,000 mm; of triangles that share the nearest point any is named.
   nearest(fields) {
@@ -125,6 +131,6 @@ console.log(`${count.answers} answers, ${count.penetrating} penetrating vertices
   `vertices under pressure, ${count.mapPoints} points of a map with ${count.intervals} intervals, ` +
   `${count.poses} poses, ${count.limits} limits: ${wrong.length} wrong`);
 for (const text of wrong.slice(0, 5)) console.error(text);
-const complete = count.penetrating > 0 && count.coloured > 0 && count.limits === 12 && count.poses === 1000 && count.depths === 100 && count.mapPoints === 120 && states.size >= 2 &&
+const complete = count.penetrating > 0 && count.coloured > 0 && count.limits === 12 && count.poses === 1000 && count.depths === 100 && count.screws === 100 && count.mapPoints === 120 && states.size >= 2 &&
   shownAt === shownNatively.length;
 process.exit(wrong.length || !complete ? 1 : 0);

@@ -11,6 +11,7 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/joint.hpp"
+#include "condyle/motion_contact.hpp"
 #include "contact/body_pair.hpp"
 #include "io/report/shown_end.hpp"
 #include "mesh/surface_to_surface.hpp"
@@ -234,6 +235,24 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
       answer[14] = measures.volume_error_mm3;
       answer[15] = measures.mobile_covered_again_mm3 + measures.fixed_covered_again_mm3;
     }
+    return 0;
+  });
+}
+
+int condyle_screw(const CondyleJoint* joint, const double* before, const double* pose, double answer[9]) {
+  return guarded(-1, [&] {
+    const std::array<std::optional<motion::FrameContact>, 2> frames{
+        motion::FrameContact{.X_FM = pose_of(before)},
+        motion::FrameContact{.X_FM = pose_of(pose), .in_contact = joint->bodies.in_contact(pose_of(pose))}};
+    const motion::ScrewStep step = *motion::screws_along(joint->bodies, frames)->back();
+    std::fill_n(answer, 9, std::numeric_limits<double>::quiet_NaN());
+    answer[0] = step.is_slide();
+    for (int i = 0; step.axis && i < 3; ++i) {
+      answer[1 + i] = step.axis->direction[i];
+      answer[4 + i] = step.axis->point[i];
+    }
+    if (step.depth) answer[7] = step.depth->degrees();
+    if (step.depth_mm) answer[8] = *step.depth_mm;
     return 0;
   });
 }

@@ -51,6 +51,11 @@ const double* condyle_depths(const CondyleJoint* joint);
 /// more than once. NaN for values that do not exist. Takes far longer than the vertices inside.
 int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_deg, double answer[16]);
 
+/// The movement from one pose to another as one screw motion, as `condyle motion --screws` has it: in `answer` 1 if it is a slide, else 0;
+/// direction and a point of its axis, in F; and how far the mobile body must turn about that in the second pose to be free, degrees and mm of
+/// the arc, as `condyle depth --about` has both. NaN for an axis that does not exist, and for depths if no rotation about it frees the bodies.
+int condyle_screw(const CondyleJoint* joint, const double* before, const double* pose, double answer[9]);
+
 /// Values of every vertex of the mobile body (`of_fixed` 0) or of the fixed one (1) at a pose, for colours: in
 /// `values` mm, in `marks` 0 for nothing, 1 for the value, 2 for a value that is only a bound. `quantity`: 0 the gap
 /// along its ray, negative inside; 1 for vertices inside the depth to read without rotations, their nearest distance

@@ -5,13 +5,13 @@ import { post, warn } from "./messages";
 import { fixed } from "./numbers";
 import { blockOf, countOf, type Copied, type UserNotes } from "./notes_block";
 import { pageWith } from "./page_copy";
-import { Clearance } from "./panels/clearance";
 import { ComparePanel } from "./panels/compare";
 import { DisplayPanel } from "./panels/display";
 import { addEditPanels, sweepOf } from "./panels/edits";
 import { freeAngles } from "./panels/free_angles";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { hintAt } from "./panels/hint";
+import { clearance, Idle } from "./panels/idle";
 import { JointFigures } from "./panels/joint_figures";
 import { licencesFold } from "./panels/licences";
 import { questionsOf } from "./panels/live_limits";
@@ -77,7 +77,7 @@ export class Page {
   private readonly loaded: Loaded | null;
   private readonly notes: NotesPanel | null;
   private core: CoreClient | null = null;
-  private clearance: Clearance | null = null;
+  private readonly idle = new Idle();
   private zones: ZonePanel | null = null;
   private readonly plan: PlanPanel | null;
   private readonly removed: BothValues | null;
@@ -330,7 +330,6 @@ export class Page {
   compute(core: CoreClient): void {
     const count = this.text.joint.kind === "hinge" ? 1 : 3;
     const askFree = freeAngles(core, count, this.motion);
-    this.clearance = new Clearance(core, this.text.rom?.implant !== undefined, (at, nearest) => this.motion.setNearest(at, nearest));
     core.listen({
       shown: (at, shown, roundTrip_ms) => {
         this.stand(shown.pose);
@@ -340,7 +339,7 @@ export class Page {
         this.scene?.annotations.showLigaments(shown.ligaments);
         this.motion.show(shown, roundTrip_ms);
         askFree({ at, held: [shown.pose[3]!, shown.pose[7]!, shown.pose[11]!] });
-        if (!shown.inContact) this.clearance?.ask(at);
+        this.askIdle(core, at, shown.inContact);
         document.documentElement.dataset["answered"] = String(Number(document.documentElement.dataset["answered"] ?? 0) + 1);
       },
       values: (values) => this.show(values),
@@ -491,8 +490,15 @@ export class Page {
     this.core?.ask({ at, quantity: quantity === "removed" ? "none" : quantity });
   }
 
+  /// What takes longer than a frame of a slider.
+  private askIdle(core: CoreClient, at: Coordinates, inContact: boolean): void {
+    const { before } = this.motion;
+    if (!inContact) this.idle.ask(() => clearance(core, at, this.text.rom?.implant !== undefined), (nearest) => this.motion.setNearest(at, nearest));
+    else if (before) this.idle.ask(() => core.query({ of: "screw", before, at }), (screw) => this.motion.showScrew(at, screw));
+  }
+
   private moved(at: Coordinates): void {
-    this.clearance?.drop();
+    this.idle.drop();
     this.ask(at);
     this.leaveLimit();
     this.figures.map?.mark(at);

@@ -263,6 +263,9 @@ export const words = {
   bound: "at least",
   noValue: "no value",
 
+  aboutLast: (deg: string, mm: string) => `${deg}° (${mm} mm) about the last movement`,
+  lastSlides: "the last movement slides",
+
   motion: "Motion",
   reset: "Back to zero",
   coordinate: (name: string) => `${name}, degrees`,

@@ -3,7 +3,7 @@ import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
   type JointArrays, type Layers, type LigamentShown, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations, type PosedArrays,
-  type Proposal, type Quantity, type Shown, type SideChoice, type Standing, type Stroke, type Surface, type Turned, type Values,
+  type Proposal, type Quantity, type Screw, type Shown, type SideChoice, type Standing, type Stroke, type Surface, type Turned, type Values,
 } from "./protocol";
 
 const poseBytes = 16 * 8;
@@ -178,6 +178,16 @@ export class CoreJoint {
       withoutDepth: answer[10]!, area_mm2: { mobile: orNull(11), fixed: orNull(12) }, volume_mm3: orNull(13),
       volumeError_mm3: orNull(14), coveredAgain_mm3: orNull(15),
     };
+  }
+
+  screw(before: Coordinates, at: Coordinates): Screw {
+    this.place(before);
+    const from = this.f64(this.pose, 16);
+    this.place(at);
+    this.on(this.core._condyle_screw, from, this.pose, this.answer);
+    const [slides, ...rest] = Array.from(this.f64(this.answer, 9), (value) => (Number.isNaN(value) ? null : value));
+    const axis = rest.slice(0, 6) as number[], [depth_deg, depth_mm] = rest.slice(6) as [number | null, number | null];
+    return { slides: slides === 1, axis: axis[0] === null ? null : { direction: axis.slice(0, 3), point: axis.slice(3) }, depth_deg, depth_mm };
   }
 
   /// At coordinates, or at X_FM, 16 numbers row by row.

@@ -98,6 +98,15 @@ export interface Depth {
   coveredAgain_mm3: number | null;
 }
 
+/// A movement as one screw motion, and how far the mobile body must turn about its axis to be free: docs/motion-files.md. The axis is null if
+/// the movement slides or turns by half a turn, depths if no rotation frees the bodies.
+export interface Screw {
+  slides: boolean;
+  axis: { direction: number[]; point: number[] } | null;
+  depth_deg: number | null;
+  depth_mm: number | null;
+}
+
 /// Where the surfaces are nearest to each other; the point is the fixed body's, in F.
 export interface Nearest {
   distance_mm: number;

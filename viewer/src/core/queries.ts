@@ -9,6 +9,8 @@ export const queries = {
   /// Each ligament of the joint file, with a tube along its path.
   ligaments: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.ligamentsAt(at),
   depth: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.depth(at),
+  /// Of the movement from one pose to another.
+  screw: (joint: CoreJoint, { before, at }: { before: Coordinates; at: Coordinates }) => joint.screw(before, at),
   /// The whole surfaces, or, if `counted`, the parts whose contact ends motions.
   nearest: (joint: CoreJoint, { at, counted }: { at: Coordinates; counted: boolean }) => joint.nearest(at, counted),
   /// Both bodies' vertices inside, without the other results of a pose.

@@ -11,7 +11,7 @@ declare module "page-core" {
       "vertex_count" | "triangle_count" | "set_ligaments" | "ligaments">
     & Taking<3, "penetrations" | "brush" | "removed" | "move_centre" | "read_mesh" | "propose" | "read_labels" | "bone" | "fill_file" |
       "joint_meshes" | "join">
-    & Taking<4, "pose" | "standing" | "depth" | "nearest" | "brushed" | "set_roles" | "mesh">
+    & Taking<4, "pose" | "standing" | "depth" | "screw" | "nearest" | "brushed" | "set_roles" | "mesh">
     & Taking<5, "elastic" | "pressure" | "motion">
     & Taking<6, "shown" | "free_angles" | "limit_about" | "body_given">
     & Taking<7, "limit">

@@ -1,5 +1,5 @@
 import { button, html, named, namesOf, spaced, svg } from "../dom";
-import type { Coordinates, Depth, Nearest, Shown, Standing } from "../core/protocol";
+import type { Coordinates, Depth, Nearest, Screw, Shown, Standing } from "../core/protocol";
 import { atMost, fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
 import { hasLimits, heldOf, shownBand } from "../result";
@@ -58,11 +58,16 @@ export class MotionPanel {
   private grid: ManoeuvreGrid | null;
   private readonly undoButton: HTMLButtonElement;
   private readonly refusal = html("p", { id: "refusal", role: "status" });
+  private readonly lastMovement = html("span", { id: "last-movement", class: "small" });
   private angles: [number, number, number];
   private translation: [number, number, number];
   private animation = 0;
   private remembered: { by: unknown; at: number } | null = null;
   private isWarm = false;
+  private aboutLast = "";
+  private shownLast: Coordinates | null = null;
+  /// Where the joint's last movement came from; null until it has moved.
+  before: Coordinates | null = null;
   private touches: boolean | null = null;  // null until it is known of this pose
   private standing: Standing | null = null;
   private hasLimits = true;  // without them the page knows only whether the bodies meet
@@ -91,7 +96,7 @@ export class MotionPanel {
     this.element = html("section", { "aria-label": words.motion }, this.status.element, html("div", { class: "sliders" }, ...rows),
       html("div", { class: "row motion-row no-print" },
         button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg], () => undefined, report.reference_mm)),
-          { disabled: !this.hasPose("reference") }), this.undoButton, this.refusal),
+          { disabled: !this.hasPose("reference") }), this.undoButton, this.lastMovement, this.refusal),
       ...(this.grid ? [...(held === null ? [] : [html("h3", {}, words.heldLimits(held))]), this.grid.element] : []));
   }
 
@@ -120,15 +125,15 @@ export class MotionPanel {
     this.set(angles, translation);
   }
 
-  /// Takes these coordinates at once.
-  set(angles: readonly number[], translation?: readonly number[]): void {
+  /// Takes these coordinates at once, as a movement from `before` if that is not the pose shown.
+  set(angles: readonly number[], translation?: readonly number[], before?: Coordinates): void {
     this.sliders.forEach((slider, i) => {
       this.angles[i] = angles[i]!;
       this.write(slider, angles[i]!);
     });
     if (translation) this.translation = [translation[0]!, translation[1]!, translation[2]!];
     this.translations.forEach((field, i) => field.show(this.translation[i]!));
-    this.hasMoved();
+    this.hasMoved(before);
   }
 
   /// Angles while a map's cross is dragged.
@@ -153,7 +158,7 @@ export class MotionPanel {
   goTo(angles: readonly number[], there: () => void = () => undefined, given?: readonly number[] | null): void {
     cancelAnimationFrame(this.animation);
     this.remember(null);
-    const from = this.coordinates;
+    const from = this.coordinates;  // the whole way is one movement
     const translation = given ?? from.translation;
     if (prefersStill()) {
       this.set(angles, translation);
@@ -166,7 +171,7 @@ export class MotionPanel {
       const eased = share * share * (3 - 2 * share);
       const between = (first: readonly number[], last: readonly number[]) =>
         share === 1 ? last : first.map((value, i) => value + eased * (last[i]! - value));
-      this.set(between(from.angles, angles), between(from.translation, translation));
+      this.set(between(from.angles, angles), between(from.translation, translation), from);
       if (share < 1) this.animation = requestAnimationFrame(step);
       else there();
     };
@@ -230,9 +235,16 @@ export class MotionPanel {
     this.drawStatus();
   }
 
+  /// Comes once the joint is idle: how far it must turn about the axis of its last movement to be free.
+  showScrew(at: Coordinates, { slides, depth_deg, depth_mm }: Screw): void {
+    if (!this.isHere(at)) return;
+    this.aboutLast = slides ? words.lastSlides : depth_deg ? words.aboutLast(fixed(depth_deg, 1), fixed(depth_mm!, 1)) : "";
+    this.drawStatus();
+  }
+
   show(shown: Shown, roundTrip_ms: number): void {
     // The depth of another pose is dropped.
-    this.depth.textContent = "";
+    this.depth.textContent = this.aboutLast = "";
     this.lastDepth = null;
     this.touches = shown.inContact;
     this.ligamentsAtEnd = shown.ligaments.flatMap(({ name, is }) => (is === "at_end" ? [named(name)] : []));
@@ -251,7 +263,8 @@ export class MotionPanel {
     this.drawStatus();
   }
 
-  private hasMoved(): void {
+  private hasMoved(before = this.shownLast): void {
+    if (!this.shownLast || !this.isHere(this.shownLast)) [this.before, this.shownLast] = [before, this.coordinates];
     this.end = null;
     this.touches = null;
     this.refuse(null);
@@ -273,6 +286,7 @@ export class MotionPanel {
 
   private drawStatus(): void {
     const state = this.stateHere();
+    this.lastMovement.textContent = state?.is === "impinging" || state?.is === "contact" ? this.aboutLast : "";
     if (state) this.findEnd(state.is);
     if (this.end?.reason === "contact") return this.status.say("limit", words.atLimit(placeOf(this.end, this.report)));
     if (this.end?.reason === "ligament") return this.status.say("limit", words.atLigament(named(this.end.ligament!)));
