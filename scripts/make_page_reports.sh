@@ -14,6 +14,8 @@ mkdir -p "$out/seen"
 sed 's/^centre = .*/centre = [-2, -2, 0]/' "$out/sample/hip.toml" >"$out/sample/shifted.toml"
 "$condyle" report "$out/sample/shifted.toml" --out "$out/shifted.html"
 "$condyle" report "$out/sample/shifted.toml" --bearing count --out "$out/counted.html"
+sed 's/^kind = .*/kind = "free"\njoint = "hip"/' "$out/sample/hip.toml" >"$out/sample/free.toml"
+"$condyle" report "$out/sample/free.toml" --map x=-1:1:0.5 flexion=0:90:30 adduction=5 --vary y --out "$out/translated.html"
 "$condyle" report "$out/sample/hip.toml" --past 5 --out "$out/zones.html"
 "$condyle" report "$out/sample/hip.toml" --measures --band=20 --resect "fadir=50 flexion=138" --curve 4 --out "$out/plan.html"
 "$condyle" sample hip --alpha-angle 70 --out "$out/cam" >/dev/null

@@ -10,7 +10,7 @@ from ._errors import JointRemark, JointWarning, warn
 #: Codes of notes on limits: docs/checks.md.
 OF_LIMITS = frozenset({
     "bones_touch", "centre_moves_limits", "coarse_mesh", "differs_from_closed_form", "last_value_left_out", "limit_on_cut", "limit_on_part_cut",
-    "limit_on_piece", "limit_through_bone", "map_not_drawn", "narrow_bearing_margin", "nothing_holds_joint", "sliding_surfaces", "translation_ends"})
+    "limit_on_piece", "limit_through_bone", "narrow_bearing_margin", "nothing_holds_joint", "sliding_surfaces", "translation_ends"})
 
 
 @dataclass(frozen=True)

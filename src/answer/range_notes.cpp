@@ -252,8 +252,6 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "differs_from_closed_form";
     case RangeNoteCode::last_value_left_out:
       return "last_value_left_out";
-    case RangeNoteCode::map_not_drawn:
-      return "map_not_drawn";
     case RangeNoteCode::nothing_holds_joint:
       return "nothing_holds_joint";
     case RangeNoteCode::limit_through_bone:

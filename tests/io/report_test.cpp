@@ -120,6 +120,36 @@ TEST(Report, HasWhatContactOfEachTriangleMeans) {
   EXPECT_EQ(block.array<std::uint8_t>("fixed_roles", "u8"), std::vector<std::uint8_t>(12, 2));
 }
 
+TEST(Report, HasAMapThatTranslatesInMillimetresWithWhatItHolds) {
+  Joint joint = arm_and_post();
+  joint.kind = JointKind::free;
+  Answered answer(joint);
+  const motion::MotionMap sliding =
+      motion::motion_map({.row = {JointAngle::flexion, 0, 10, 10},
+                          .column = {motion::MapCoordinate::translation(0), -1, 1, 1},
+                          .vary = motion::MapCoordinate::translation(1),
+                          .held = {.angles = {{}, Angle::degrees(2), {}}}},
+                         answer.range);
+  answer.answer.map = sliding;
+  const io::RomResult rom{joint, answer.answer};
+  const Json map = block_of({.title = "", .joint = joint, .rom = &rom}).json["map"];
+  EXPECT_EQ(map["columns"]["translation"], "x");
+  EXPECT_EQ(map["columns"]["values_mm"], (Json{-1.0, 0.0, 1.0}));
+  EXPECT_EQ(map["rows"]["values_deg"], (Json{0.0, 10.0}));
+  EXPECT_EQ(map["start_mm"], 0);
+  EXPECT_EQ(map["range_mm"], (Json{-50.0, 50.0}));
+  EXPECT_FALSE(map.contains("start_deg"));
+  EXPECT_EQ(map["held_deg"], (Json{0.0, Angle::degrees(2).degrees(), 0.0}));
+  EXPECT_EQ(map["held_mm"], (Json{0.0, 0.0, 0.0}));
+  ASSERT_EQ(map["intervals"].size(), sliding.slides.size());
+  for (std::size_t i = 0; i < sliding.slides.size(); ++i)
+    for (std::size_t k = 0; k < sliding.slides[i].intervals.size(); ++k) {
+      const motion::FreeSlide& free = sliding.slides[i].intervals[k];
+      EXPECT_EQ(map["intervals"][i][k], (Json{*free.low.at_mm, *free.high.at_mm, free.low.contact ? 1 : 0,
+                                              free.high.contact ? 1 : 0}));
+    }
+}
+
 TEST(Report, HasAllFreeIntervalsOfAMap) {
   const Answered answer(arm_and_post());
   const Json map = block_of({.title = "", .joint = answer.joint, .rom = &answer.rom}).json["map"];

@@ -116,6 +116,8 @@ for (const [what, change, names] of [
   ["with a pose that names no array", (text) => (text.poses[1].fixed_gaps = "toString"), "poses[1].fixed_gaps"],
   ["with fewer gaps than vertices", (text) => (text.arrays[text.poses[1].mobile_gaps].length -= 1), "arrays.pose_1_mobile_gaps"],
   ["with a map of other points", (text) => text.map.intervals.pop(), "map.intervals"],
+  ["with a map without a start", (text) => delete text.map.start_deg, "map.start_deg"],
+  ["with a map that slides and holds nothing", (text) => (text.map.start_mm = 0), "map.held_mm"],
 ])
   test(`a data block ${what} is reported by its key`, async () => {
     const line = await onlyMessage(withText("damaged", change));

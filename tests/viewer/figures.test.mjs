@@ -198,6 +198,35 @@ test("cells of the map have their angles as text for screen readers, and the out
   await page.context().close();
 });
 
+test("a map with translations has millimetres, and a cell pressed takes the joint to where its free interval ends in contact", async () => {
+  const { page, complaints } = await openPage(browser, pathOf("translated"), { reducedMotion: "reduce" });
+  const { map } = textOf("translated"), across = map.columns.values_mm.length, cell = 2 * across + 3;
+  const labels = await page.locator("#side rect.cell").evaluateAll((cells) => cells.map((each) => each.getAttribute("aria-label")));
+  const said = (mm) => `${mm.toFixed(2).replace("-", "\u2212")} mm`;
+  const free = map.intervals[cell].map(([low, high]) => `free from ${said(low)} to ${said(high)}`).join(", ");
+  assert.equal(labels[cell], `x 0.5 mm, flexion 60°: y ${free}`);
+  await openFigure(page, "Map");
+  const texts = await page.locator("#side svg.map > g text").allTextContents();
+  for (const wanted of ["x, mm", "flexion", "\u22120.5", "30°"]) assert.ok(texts.includes(wanted), `${wanted} of ${texts}`);
+  assert.match(await page.locator("#side .map-legend").textContent(), /^0 mm.*10 mm or more.*5 mm/);
+  await keep(page, "figure_map_mm");
+  await page.locator("#side rect.cell").nth(cell).click();
+  await settled(page);
+  await openTab(page, "Motion");
+  const mmOf = async (axis) => Number(await page.getByLabel(`${axis}, mm`).getAttribute("aria-valuenow"));
+  assert.deepEqual([await angleOf(page, "flexion"), await angleOf(page, "adduction"), await mmOf("x"), await mmOf("y")], [60, 5, 0.5, 0]);
+  const [, end_mm, , byContact] = map.intervals[cell].find(([low, high]) => low <= 0 && high >= 0);
+  assert.equal(byContact, 1);
+  const touches = (y) => page.evaluate(async (mm) => (await condyle.query({ of: "pose", at: { angles: [60, 5, 0], translation: [0.5, mm, 0] } })).inContact, y);
+  assert.deepEqual([await touches(end_mm - 1e-6), await touches(end_mm + 1e-6)], [false, true]);
+  // In contact after a slide, about which nothing turns.
+  await turnTo(page, { flexion: 140 });
+  await type(page.getByLabel("x, mm"), 0.3);
+  await page.getByText("the last movement slides", { exact: true }).waitFor();
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
 test("a walk that touches nothing draws its gap, and says what is zero or empty", { skip: !has("walk") && "not made" }, async () => {
   const { page } = await openPage(browser, pathOf("walk"));
   const { text, array } = readReport(pathOf("walk"));

@@ -137,5 +137,5 @@ export const noteGrades: Record<string, "wrong" | "remark"> = {
   mirrored: "wrong", bodies_disagree: "wrong", centre_moves_limits: "remark", narrow_bearing_margin: "remark",
   limit_on_cut: "remark", limit_on_part_cut: "remark", limit_on_piece: "remark", sliding_surfaces: "remark",
   translation_ends: "remark", bones_touch: "remark", coarse_mesh: "remark", differs_from_closed_form: "remark",
-  last_value_left_out: "remark", map_not_drawn: "remark", nothing_holds_joint: "remark", limit_through_bone: "remark",
+  last_value_left_out: "remark", nothing_holds_joint: "remark", limit_through_bone: "remark",
 };

@@ -32,7 +32,15 @@ const rom = object({
 /// low, high, and what makes either end: 0 the range, 1 contact, 2 a ligament
 const interval = list(number, 4) as Check<[number, number, number, number]>;
 export type Interval = Passed<typeof interval>;
-const mapAxis = object({ angle: text, opposite: text, values_deg: list(number) });
+const turningAxis = object({ angle: text, opposite: text, values_deg: list(number) });
+const slidingAxis = object({ translation: oneOf("x", "y", "z"), opposite: text, values_mm: list(number) });
+type MapAxis = Passed<typeof turningAxis> | Passed<typeof slidingAxis>;
+const mapAxis: Check<MapAxis> = (value, key) => (isObject(value) && "translation" in value ? slidingAxis : turningAxis)(value, key);
+
+/// The held coordinate of a map's axis.
+export function heldOn(axis: MapAxis): { name: string; unit: "deg" | "mm"; values: number[] } {
+  return "translation" in axis ? { name: axis.translation, unit: "mm", values: axis.values_mm } : { name: axis.angle, unit: "deg", values: axis.values_deg };
+}
 const surface = object({
   first_vertex: count, vertices: count, first_triangle: count, triangles: count, youngs_modulus_mpa: ifThere(number),
   poisson_ratio: ifThere(number), thickness_mm: ifThere(text),
@@ -114,7 +122,8 @@ const report = object({
   coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
   scope: ifThere(text), rom: orNull(rom), rom_error: ifThere(text),
   map: orNull(object({
-    columns: mapAxis, rows: mapAxis, vary: text, vary_opposite: text, start_deg: number, intervals: list(list(interval)),
+    columns: mapAxis, rows: mapAxis, vary: text, vary_opposite: text, start_deg: ifThere(number), start_mm: ifThere(number), held_deg: ifThere(three),
+    held_mm: ifThere(three), intervals: list(list(interval)),
   })),
   zones: list(object({ motion: text, past_deg: number, fixed: text, mobile: text })),
   layers: orNull(object({
@@ -148,9 +157,17 @@ export function checkedText(json: string): ReportText {
   }
   report(said, "");
   const read = said as ReportText;
-  if (read.map && read.map.intervals.length !== read.map.columns.values_deg.length * read.map.rows.values_deg.length) wrong("map.intervals");
+  if (read.map) checkMap(read.map);
   checkArrays(read);
   return read;
+}
+
+/// A map has a start, the coordinates that it holds if one of them is a translation, and every point.
+function checkMap({ columns, rows, start_deg, start_mm, held_deg, held_mm, intervals }: NonNullable<ReportText["map"]>): void {
+  const axes = [heldOn(columns), heldOn(rows)];
+  if (start_deg === undefined && start_mm === undefined) wrong("map.start_deg");
+  if ((start_mm !== undefined || axes.some(({ unit }) => unit === "mm")) && !(held_deg && held_mm)) wrong("map.held_mm");
+  if (intervals.length !== axes[0]!.values.length * axes[1]!.values.length) wrong("map.intervals");
 }
 
 /// Arrays have as many entries as the vertices or triangles that they describe.

@@ -459,14 +459,15 @@ export const words = {
   map: "Range-of-motion map",
   computeMap: "Compute a map",
   mapProgress: (done: number, total: number) => `Computing the map: ${done} of ${total} points`,
-  mapCaption: (vary: string, column: string, row: string) =>
-    `Degrees of ${vary} at every ${column} and ${row}. Hatched: not free at the start; cross: the joint.`,
-  mapPlace: (column: string, column_deg: string, row: string, row_deg: string) => `${column} ${column_deg}°, ${row} ${row_deg}°`,
+  measuredIn: { deg: "Degrees", mm: "Millimetres" },
+  mapCaption: (measured: string, vary: string, column: string, row: string) =>
+    `${measured} of ${vary} at every ${column} and ${row}. Hatched: not free at the start; cross: the joint.`,
+  mapPlace: (column: string, columnValue: string, row: string, rowValue: string) => `${column} ${columnValue}, ${row} ${rowValue}`,
   mapPoint: (place: string, vary: string, intervals: string) => `${place}: ${vary} ${intervals}`,
   severalKey: "more than one free interval",
   severalFree: "Press a cell to go there and see all of its free intervals.",
-  freeFrom: (low: string, high: string) => `free from ${low}° to ${high}°`,
-  orMore: (degrees: number) => `${degrees}° or more`,
+  freeFrom: (low: string, high: string) => `free from ${low} to ${high}`,
+  orMore: (value: string) => `${value} or more`,
   byLigament: "(a ligament ends it)",
   notFree: "nowhere free",
 

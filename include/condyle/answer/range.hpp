@@ -81,7 +81,6 @@ enum class RangeNoteCode : std::uint8_t {
   coarse_mesh,  ///< Triangles are so long that they cut off of head, neck or rim what moves limits by degrees.
   differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.
   last_value_left_out,  ///< No whole number of steps leads to the last value of a map's axis: it ends before.
-  map_not_drawn,        ///< A report's page leaves out a map over translations.
   nothing_holds_joint,  ///< A map translates the joint, and in this model nothing holds its bodies together but what they meet.
   limit_through_bone,  ///< A ligament runs straight through a body where it ends a motion.
 };

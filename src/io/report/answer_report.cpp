@@ -101,10 +101,6 @@ std::optional<ReportAnswer> answer_report(const LoadedJoint& loaded, const Repor
   if (request.look_at_notes) request.look_at_notes({}, notes);
   if (!answer_limits(answer.range, shown, request.range, control)) return std::nullopt;
   if (answer.range.answer) answer.range.answer->contact_notes = notes;
-  if (answer.range.answer && answer.range.answer->map && answer.range.answer->map->grid.translates())
-    answer.range.answer->notes.push_back(
-        {RangeNoteCode::map_not_drawn,
-         "the page draws maps of angles only and leaves out the one over translations: condyle rom has it"});
   if (request.before) {
     RangeRequest range = request.range;
     range.map.reset();

@@ -35,28 +35,39 @@ constexpr std::int16_t no_gap = std::numeric_limits<std::int16_t>::max();
 Json axis_json(const motion::GridAxis& axis, Anatomy joint) {
   Json values = Json::array();
   for (std::size_t i = 0; i < axis.count(); ++i) values.push_back(axis.value(i));
-  return {{"angle", name_of(axis.coordinate, joint)},
+  const bool turns = axis.coordinate.is_angle();
+  return {{turns ? "angle" : "translation", name_of(axis.coordinate, joint)},
           {"opposite", movement_name(axis.coordinate, RotationSense::negative, joint)},
-          {"values_deg", std::move(values)}};
+          {turns ? "values_deg" : "values_mm", std::move(values)}};
 }
 
 Json map_json(const motion::MotionMap& map) {
   const motion::MapGrid& grid = map.grid;
   Json points = Json::array();
-  for (const motion::FreeAngles& point : map.points) {
+  for (std::size_t i = 0; i < grid.size(); ++i) {
     Json intervals = Json::array();
-    for (const motion::FreeInterval& free : point.intervals)
-      intervals.push_back({(grid.start + free.low).degrees(), (grid.start + free.high).degrees(),
-                           shown_end(free.at_low), shown_end(free.at_high)});
+    for (const motion::MapInterval& free : map.point(i).intervals)
+      intervals.push_back({free.low.value, free.high.value, shown_end(free.low), shown_end(free.high)});
     points.push_back(std::move(intervals));
   }
-  return {{"columns", axis_json(grid.column, map.anatomy)},
-          {"rows", axis_json(grid.row, map.anatomy)},
-          {"vary", name_of(grid.vary, map.anatomy)},
-          {"vary_opposite", movement_name(grid.vary, RotationSense::negative, map.anatomy)},
-          {"start_deg", grid.start.degrees()},
-          {"range_deg", {grid.range.negative.degrees(), grid.range.positive.degrees()}},
-          {"intervals", std::move(points)}};
+  Json json{{"columns", axis_json(grid.column, map.anatomy)},
+            {"rows", axis_json(grid.row, map.anatomy)},
+            {"vary", name_of(grid.vary, map.anatomy)},
+            {"vary_opposite", movement_name(grid.vary, RotationSense::negative, map.anatomy)},
+            {"intervals", std::move(points)}};
+  const Vec3& held = grid.held.translation_mm;
+  if (grid.vary.is_angle()) {
+    json["start_deg"] = grid.start.degrees();
+    json["range_deg"] = {grid.range.negative.degrees(), grid.range.positive.degrees()};
+  } else {
+    json["start_mm"] = held[grid.vary.axis()];
+    json["range_mm"] = {grid.slide_range.negative_mm, grid.slide_range.positive_mm};
+  }
+  if (!grid.translates()) return json;
+  for (const JointAngle angle : all_joint_angles)
+    json["held_deg"].push_back(angle_of(grid.held.angles, angle).degrees());
+  json["held_mm"] = numbers(held);
+  return json;
 }
 
 std::vector<std::int16_t> rounded_gaps(const std::vector<double>& gaps_mm) {
@@ -176,8 +187,7 @@ std::string data_block(const Report& report) {
   BlockArrays arrays;
   Json json = joint_object(report, arrays);
   if (report.rom) {
-    if (report.rom->answer.map && !report.rom->answer.map->grid.translates())
-      json["map"] = map_json(*report.rom->answer.map);
+    if (report.rom->answer.map) json["map"] = map_json(*report.rom->answer.map);
     json["zones"] = zones_json(*report.rom, arrays);
   }
   if (report.layers) json["layers"] = layers_json(*report.layers, joint, arrays);

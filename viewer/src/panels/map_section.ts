@@ -3,6 +3,7 @@ import type { Coordinates, MapQuestion } from "../core/protocol";
 import { button, html, section } from "../dom";
 import { MapPlot } from "../plots/map";
 import type { Interval, MapAnswer, ReportText } from "../report";
+import { heldOn } from "../report_shape";
 import { words } from "../words";
 import type { MotionPanel } from "./motion";
 
@@ -11,8 +12,8 @@ export class MapSection {
   readonly element = section(words.map);
   private readonly progress = html("p", { id: "map-progress", role: "status" });
   private plot: MapPlot | null = null;
-  /// Numbers of the angles of the map's columns and rows.
-  private angles: [number, number] | null = null;
+  /// Numbers of the coordinates of the map's columns and rows.
+  private axes: [number, number] | null = null;
 
   /// `core` answers if the page computes: then the map moves the joint.
   constructor(
@@ -29,27 +30,27 @@ export class MapSection {
   }
 
   /// Marks where the joint is.
-  mark({ angles }: Coordinates): void {
-    if (this.angles) this.plot?.setPose(angles[this.angles[0]]!, angles[this.angles[1]]!);
+  mark(at: Coordinates): void {
+    const values = valuesOf(at);
+    if (this.axes) this.plot?.setPose(values[this.axes[0]]!, values[this.axes[1]]!);
   }
 
   private show(answer: MapAnswer): void {
-    const angle = (name: string) => this.text.coordinates.findIndex((c) => c.name === name);
-    const at = (column: number, row: number): [number, number, number] => {
-      const { angles } = this.motion.coordinates;
-      angles[angle(answer.columns.angle)] = column;
-      angles[angle(answer.rows.angle)] = row;
-      return angles;
+    const names = [...this.text.coordinates.map(({ name }) => name), "x", "y", "z"], { held_deg, held_mm } = answer;
+    const [columnAt, rowAt] = this.axes = [names.indexOf(heldOn(answer.columns).name), names.indexOf(heldOn(answer.rows).name)];
+    const at = (values: number[], column: number, row: number): [number[], number[]] => {
+      [values[columnAt], values[rowAt]] = [column, row];
+      return [values.slice(0, 3), values.slice(3)];
     };
     this.plot = new MapPlot(answer, this.computes ? {
       go: (column, row) => {
-        const angles = at(column, row);
-        angles[angle(answer.vary)] = answer.start_deg;
-        this.motion.goTo(angles);
+        const values = held_deg && held_mm ? [...held_deg, ...held_mm] : valuesOf(this.motion.coordinates);
+        values[names.indexOf(answer.vary)] = answer.start_mm ?? answer.start_deg!;
+        const [angles, translation] = at(values, column, row);
+        this.motion.goTo(angles, undefined, translation);
       },
-      drag: (column, row) => this.motion.drag(at(column, row)),
+      drag: (column, row) => this.motion.drag(...at(valuesOf(this.motion.coordinates), column, row)),
     } : null);
-    this.angles = [angle(answer.columns.angle), angle(answer.rows.angle)];
     this.mark(this.motion.coordinates);
     this.element.append(this.plot.element);
     this.element.classList.add("of-report");
@@ -72,6 +73,11 @@ export class MapSection {
     });
     return ask;
   }
+}
+
+/// Angles, then the translation.
+function valuesOf({ angles, translation }: Coordinates): number[] {
+  return [...angles, ...translation];
 }
 
 /// Internal rotation over flexion and adduction, every ten degrees.

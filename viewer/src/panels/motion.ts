@@ -136,11 +136,11 @@ export class MotionPanel {
     this.hasMoved(before);
   }
 
-  /// Angles while a map's cross is dragged.
-  drag(angles: readonly number[]): void {
+  /// Coordinates while a map's cross is dragged.
+  drag(angles: readonly number[], translation: readonly number[]): void {
     cancelAnimationFrame(this.animation);
     this.remember(this.sliders);
-    this.set(angles);
+    this.set(angles, translation);
   }
 
   /// Goes to the end of a motion: its varied angle to the last bit, the others as given.
