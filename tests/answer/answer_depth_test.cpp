@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "answer/depth_meshes.hpp"
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/make_joint.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// One answer for every shell: depths as their own functions give them, with the caveats that they must be read with.
 

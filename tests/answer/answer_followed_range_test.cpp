@@ -1,16 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// The range of motion of a joint whose translation follows a recorded motion, or a load.
 

@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "condyle/answer.hpp"
 #include "contact/body_pair.hpp"
 #include "core/rotation_about.hpp"
@@ -10,7 +5,7 @@
 #include "mesh/subdivide.hpp"
 #include "motion/search/translation_contacts.hpp"
 #include "support/random_pose.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Two meshes without a joint: how far one turns or slides, against closed forms, sampling and exact tests beside every end.
 

@@ -1,12 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// A block of 10 by 10 mm on a plane: 100 mm^2 at 6 MPa per mm.
 

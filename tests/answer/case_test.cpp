@@ -1,9 +1,7 @@
 #include "condyle/answer/case.hpp"
 
-#include <gtest/gtest.h>
-
-#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,10 +1,6 @@
 #include "answer/living_limit.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

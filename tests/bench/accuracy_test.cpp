@@ -1,10 +1,6 @@
 #include "accuracy.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace bench {
 namespace {

@@ -1,12 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <string>
-
 #include "method.hpp"
 #include "questions.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace bench {
 namespace {

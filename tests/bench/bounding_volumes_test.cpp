@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "methods/ball.hpp"
 #include "methods/spherical_shell.hpp"
 #include "methods/volume_tree.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace bench {
 namespace {

@@ -1,12 +1,6 @@
 #include "contest.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,8 +8,7 @@
 #include "method.hpp"
 #include "questions.hpp"
 #include "reference.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "timing.hpp"
 
 namespace bench {

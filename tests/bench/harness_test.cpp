@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <fstream>
-
 #include "baseline.hpp"
 #include "commands.hpp"
 #include "growth.hpp"
 #include "scenes.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 namespace bench {
 namespace {

@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
 #include <ostream>
-#include <set>
 
 #include "method.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Results of the published and the library methods that find vertices inside, on shapes with answers known in closed
 /// form. The experiment measures how far they are off on bones.

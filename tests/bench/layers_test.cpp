@@ -1,12 +1,8 @@
 #include "methods/layers.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "methods/depth_raster.hpp"
 #include "methods/sphere_raster.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace bench {
 namespace {

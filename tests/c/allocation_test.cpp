@@ -1,20 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <cstdlib>
 #include <new>
 #include <numeric>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "c/held.hpp"
 #include "condyle/normal_depth.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Whichever allocation fails, C sees a status, and what it holds is as usable as before.
 

@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <string>
 #include <thread>
 
 #include "c/held.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// What C passes in wrong comes back as a status and a line.
 

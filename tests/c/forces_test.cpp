@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-
 #include "c/held.hpp"
 #include "c/same_answers.hpp"
 #include "condyle/pressure.hpp"
+#include "support/test.hpp"
 
 /// Forces for a simulator, and contacts that are stepped, have the bits of C++.
 

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "condyle/condyle.h"
 #include "condyle/mesh.hpp"
+#include "support/test.hpp"
 
 /// Objects of the C interface that destroy themselves, and C++'s arguments as it takes them.
 

@@ -1,14 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <thread>
-#include <vector>
 
 #include "c/held.hpp"
 #include "c/same_answers.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/version.hpp"
+#include "support/test.hpp"
 
 /// What C answers has the bits of what C++ answers.
 

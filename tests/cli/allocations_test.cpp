@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cstdlib>
-
 #include "command.hpp"
 
 /// Each allocation of a command fails in turn (preload/failing_allocations.cpp): one line and exit code 5, the earlier result or the

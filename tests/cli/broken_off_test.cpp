@@ -1,13 +1,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
-#include <map>
 #include <memory>
-#include <random>
 #include <thread>
 
 #include "command.hpp"

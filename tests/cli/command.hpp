@@ -1,21 +1,14 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/types.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "joint_of_file.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// What tests of the command have in common, and what they include: runs of it, its answers, and folders to ask in.
 

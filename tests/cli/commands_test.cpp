@@ -1,6 +1,4 @@
-#include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 
 #include "command.hpp"

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "motion_scene.hpp"
 
 /// Notes on layers, loads and motions, in the command's text, its JSON and under --strict.

@@ -1,8 +1,5 @@
-#include <cstdlib>
-#include <set>
-
-#include "command.hpp"
 #include "io/result/crate.hpp"
+#include "command.hpp"
 #include "support/small_cohort.hpp"
 
 /// `--crate`: an RO-Crate names every file of the folder and every file that was read, with digests that sha256sum finds too.

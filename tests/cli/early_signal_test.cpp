@@ -1,13 +1,10 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <csignal>
-#include <cstdlib>
-#include <string>
 
 #include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 /// A signal that comes while the libraries start, before main() (preload/early_signal.cpp).
 

@@ -1,7 +1,6 @@
 #include <sys/wait.h>
 
 #include <cerrno>
-#include <cstdlib>
 
 #include "command.hpp"
 

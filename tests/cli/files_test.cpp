@@ -6,11 +6,9 @@
 
 #include <chrono>
 #include <csignal>
-#include <map>
 #include <thread>
 
 #include "command.hpp"
-#include "mesh/subdivide.hpp"
 
 /// The command's effects on files that it was not requested to replace, and its reaction to unusual names and files.
 

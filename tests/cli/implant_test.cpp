@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "command.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"

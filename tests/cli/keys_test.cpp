@@ -1,8 +1,4 @@
-#include <cstdint>
-#include <cstdlib>
-#include <map>
 #include <regex>
-#include <set>
 
 #include "command.hpp"
 #include "support/small_cohort.hpp"

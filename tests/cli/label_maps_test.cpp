@@ -1,5 +1,3 @@
-#include <array>
-
 #include "command.hpp"
 #include "condyle/io/label_file.hpp"
 #include "io/image/write_labels.hpp"

@@ -1,6 +1,3 @@
-#include <cmath>
-#include <numbers>
-
 #include "command.hpp"
 
 /// `condyle rom` and `study` for bodies of several meshes, each with a word for what contact on it means.

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "command.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/joint_file.hpp"

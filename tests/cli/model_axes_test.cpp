@@ -1,6 +1,3 @@
-#include <cmath>
-#include <numbers>
-
 #include "motion_scene.hpp"
 
 /// Models whose joint frames are turned, and models that hold something harmless, on the command line.

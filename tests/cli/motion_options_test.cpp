@@ -1,6 +1,3 @@
-#include <cmath>
-#include <functional>
-#include <numbers>
 #include <numeric>
 #include <sstream>
 

@@ -1,6 +1,5 @@
 #include "progress.hpp"
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace condyle::cli {
 namespace {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "command.hpp"
 #include "support/report_block.hpp"
 

@@ -1,5 +1,3 @@
-#include <numbers>
-
 #include "command.hpp"
 #include "support/parametric_shoulder.hpp"
 

@@ -1,8 +1,6 @@
 #include <signal.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <random>
 #include <thread>
 
 #include "command.hpp"

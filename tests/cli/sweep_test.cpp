@@ -1,4 +1,3 @@
-
 #include "command.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "command.hpp"
 
 /// touch, turn and slide: two meshes without a joint file.

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "condyle/io/label_file.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 

@@ -1,12 +1,9 @@
 #include "with_progress.hpp"
 
-#include <gtest/gtest.h>
-
 #include <csignal>
-#include <optional>
-#include <string>
 
 #include "interrupt.hpp"
+#include "support/test.hpp"
 
 namespace condyle::cli {
 namespace {

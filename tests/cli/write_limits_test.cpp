@@ -1,6 +1,3 @@
-#include <cmath>
-#include <numbers>
-
 #include "command.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/io/joint_file.hpp"

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "condyle/pressure.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// A ball in a closed shell with a rim, hollow downwards: where a balance starts from does not decide what is found, and what is
 /// refused is refused for its reason.

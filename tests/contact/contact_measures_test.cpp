@@ -1,12 +1,7 @@
 #include "condyle/contact_measures.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "mesh/subdivide.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Areas, mean depths and volumes in closed form, and how fast finer meshes come to them.
 

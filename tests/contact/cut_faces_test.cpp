@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "contact/elastic_parts.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// Faces at the rim of a solid, where closed forms say what is in contact.
 

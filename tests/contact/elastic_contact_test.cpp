@@ -1,13 +1,7 @@
 #include "condyle/pressure.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 namespace condyle::contact {
 namespace {

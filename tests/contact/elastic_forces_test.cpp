@@ -1,14 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <string>
-
-#include "condyle/error.hpp"
 #include "condyle/pressure.hpp"
 #include "contact/elastic_parts.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// Forces for a simulator, against closed forms, sums and differences.
 

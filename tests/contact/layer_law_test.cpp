@@ -1,8 +1,5 @@
 #include "contact/layer_law.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support/test.hpp"
 
 namespace condyle::contact {
 namespace {

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "condyle/error.hpp"
 #include "condyle/pressure.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// Ligaments that pull beside an elastic contact.
 

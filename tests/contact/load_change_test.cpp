@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <array>
-
 #include "contact/elastic_parts.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// The derivatives that the balance steps by, against differences of the load.
 

@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/joint.hpp"
 #include "contact/body_pair.hpp"
 #include "mesh/winding_number.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::contact {
 namespace {

@@ -1,13 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 #include "condyle/pressure.hpp"
 #include "support/cup.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::contact {
 namespace {

@@ -1,12 +1,7 @@
 #include "condyle/contact_measures.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "contact/chosen_arcs.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

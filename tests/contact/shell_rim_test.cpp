@@ -1,15 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <utility>
-
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/subdivide.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// A ball in a shell that has a rim: rays from the rim's flat face run lengthwise through the ball.
 

@@ -1,8 +1,6 @@
 #include "condyle/contact.hpp"
 
-#include <gtest/gtest.h>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::contact {
 namespace {

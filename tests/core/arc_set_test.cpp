@@ -1,9 +1,8 @@
 #include "core/arc_set.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

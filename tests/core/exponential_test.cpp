@@ -1,15 +1,9 @@
 #include "core/exponential.hpp"
 
-#include <gtest/gtest.h>
-
 #include <boost/math/special_functions/erf.hpp>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
 
 #include "core/misrounded.hpp"
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

@@ -1,10 +1,7 @@
 #include "core/extended.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "core/composed.hpp"
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

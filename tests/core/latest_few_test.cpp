@@ -1,11 +1,10 @@
 #include "core/latest_few.hpp"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <stdexcept>
 #include <thread>
-#include <vector>
+
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

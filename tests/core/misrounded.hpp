@@ -1,10 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cstddef>
-#include <limits>
+
+#include "support/test.hpp"
 
 namespace condyle::core {
 

@@ -1,8 +1,5 @@
 #include "core/near_name.hpp"
-
-#include <gtest/gtest.h>
-
-#include <vector>
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

@@ -1,8 +1,5 @@
 #include "core/one_line.hpp"
-
-#include <gtest/gtest.h>
-
-#include <string>
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

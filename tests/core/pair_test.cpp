@@ -1,10 +1,8 @@
 #include "core/pair.hpp"
 
-#include <gtest/gtest.h>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <cmath>
-#include <random>
+
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

@@ -1,22 +1,18 @@
 #include "core/parallel.hpp"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "core/parallel_tasks.hpp"
 #include "core/per_thread.hpp"
 #include "core/thread_limit.hpp"
 #include "core/thread_pool.hpp"
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

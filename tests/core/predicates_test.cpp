@@ -1,11 +1,8 @@
 #include "core/predicates.hpp"
 
-#include <gtest/gtest.h>
-
 #include <boost/multiprecision/cpp_int.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
+
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,9 +1,5 @@
 #include "core/rounded.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

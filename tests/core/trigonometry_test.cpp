@@ -1,16 +1,8 @@
 #include "core/trigonometry.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "core/misrounded.hpp"
 #include "core/rotation_about.hpp"
+#include "support/test.hpp"
 
 namespace condyle::core {
 namespace {

@@ -1,8 +1,5 @@
 #include "core/uninitialised.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cstdint>
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

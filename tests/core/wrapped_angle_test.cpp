@@ -1,9 +1,5 @@
 #include "core/wrapped_angle.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,9 +1,7 @@
 #include "io/result/both_sides.hpp"
 
-#include <gtest/gtest.h>
-
 #include "io/rom_scene.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

@@ -2,15 +2,12 @@
 #include "io/joint/depth_surfaces.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/motion/motion_text.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <vtkCellArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkIdList.h>
@@ -6,11 +5,9 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "mesh/label_surface/contour.hpp"
 #include "mesh/surface_distance.hpp"
+#include "support/test.hpp"
 
 /// VTK's flying edges on the same samples: another table of cases, without the decider for ambiguous faces.
 

@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <fmt/format.h>
-
 #include "io/file/csv_fields.hpp"
+#include "support/test.hpp"
 
 /// Texts as fields of CSV tables.
 

@@ -1,6 +1,5 @@
 #include "condyle/io/mesh_file.hpp"
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

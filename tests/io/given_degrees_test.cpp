@@ -1,9 +1,8 @@
 #include "io/joint/given_degrees.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
+#include "support/test.hpp"
 
 namespace condyle::io {
 namespace {

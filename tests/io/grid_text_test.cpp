@@ -1,11 +1,5 @@
 #include "io/joint/grid_text.hpp"
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
-#include "condyle/error.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,14 +1,11 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <new>
-#include <string>
-#include <vector>
 
 #include "io/file/h5_image.hpp"
+#include "support/test.hpp"
 
 /// HDF5 does not survive an allocation that fails: memory that does not suffice has to end before it.
 

@@ -1,14 +1,9 @@
 #include "io/file/input_recorder.hpp"
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <future>
 #include <thread>
 
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "core/thread_limit.hpp"
 #include "io/file/environment.hpp"
@@ -16,7 +11,7 @@
 #include "io/file/output_file.hpp"
 #include "io/file/read_pair.hpp"
 #include "io/image/byte_source.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 /// What an answer read is recorded by the functions that read.
 

@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
-
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "core/predicates.hpp"
 #include "io/result/frame_result.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Joint files of joints other than the hip, and of joints that translate.
 

@@ -1,15 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
-
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "core/predicates.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Bodies whose meshes are given in frames of their own, and meshes found by the environment.
 

@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "support/joint_text.hpp"
+#include "support/test.hpp"
 
 /// [[motion]] tables of joint files.
 

@@ -1,20 +1,13 @@
 #include "condyle/io/joint_file.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <sstream>
-#include <utility>
 
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "core/predicates.hpp"
 #include "support/joint_text.hpp"
 #include "support/same_bits.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "support/tube.hpp"
 
 namespace condyle {

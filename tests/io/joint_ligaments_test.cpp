@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -11,7 +5,7 @@
 #include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "support/joint_text.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// [[ligament]] tables of joint files, and the motions that they end.
 

@@ -1,10 +1,8 @@
-#include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "condyle/error.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

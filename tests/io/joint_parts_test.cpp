@@ -1,14 +1,10 @@
-#include <gtest/gtest.h>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "io/result/frame_result.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Bodies of several meshes.
 

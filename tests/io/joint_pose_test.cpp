@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
 #include <sstream>
 
-#include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

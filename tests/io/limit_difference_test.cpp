@@ -1,10 +1,7 @@
 #include "io/result/limit_difference.hpp"
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "rom_scene.hpp"
+#include "support/test.hpp"
 
 /// Differences between the limits of two joints: in what they are known, and in how far they are uncertain.
 

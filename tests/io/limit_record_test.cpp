@@ -1,12 +1,8 @@
 #include "answer/records/limit_record.hpp"
 
-#include <gtest/gtest.h>
-
-#include <set>
-#include <string>
-
 #include "io/record/table_of.hpp"
 #include "rom_scene.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

@@ -1,14 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "support/complaint.hpp"
 #include "support/mesh_bytes.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,9 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "condyle/io/mesh_file.hpp"
 #include "support/mesh_bytes.hpp"
 #include "support/same_bits.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
-
-#include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 // Polygons of more than three corners: refused, or split as asked.
 

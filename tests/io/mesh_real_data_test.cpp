@@ -1,17 +1,10 @@
-#include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 #include <vtkBitArray.h>
 #include <vtkCellArray.h>
@@ -12,18 +10,12 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <algorithm>
 #include <bit>
-#include <string>
-#include <vector>
 
-#include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "support/complaint.hpp"
 #include "support/mesh_bytes.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 // What other programs put round the triangles: strips, texts, line ends, marks, orders of bytes, packers.
 

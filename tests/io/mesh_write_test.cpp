@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <vtkCellData.h>
@@ -10,19 +9,13 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
-#include <array>
 #include <csignal>
-#include <filesystem>
 #include <iterator>
-#include <limits>
 
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
-#include "support/complaint.hpp"
 #include "support/same_bits.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

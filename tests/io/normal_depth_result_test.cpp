@@ -1,16 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/depth_result.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Answers of `condyle depth --method normal` for a ball that stands in a flat sheet.
 ///

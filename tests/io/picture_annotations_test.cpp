@@ -1,10 +1,8 @@
 #include "io/picture/annotations.hpp"
 
-#include <gtest/gtest.h>
-
 #include "condyle/joint_coordinates.hpp"
 #include "io/picture/colour_scale.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

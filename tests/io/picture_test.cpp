@@ -1,16 +1,10 @@
 #include "condyle/io/picture.hpp"
 
-#include <gtest/gtest.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "core/thread_limit.hpp"
 #include "io/file/whole_file.hpp"
@@ -19,9 +13,7 @@
 #include "io/picture/legend.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/subdivide.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

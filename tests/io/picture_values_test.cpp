@@ -1,12 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-
 #include "io/picture/surface_values.hpp"
 #include "mesh/surface_distance.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

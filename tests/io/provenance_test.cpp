@@ -1,14 +1,10 @@
 #include "condyle/io/provenance.hpp"
 
-#include <gtest/gtest.h>
-
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

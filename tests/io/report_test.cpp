@@ -1,21 +1,14 @@
 #include "io/report/report.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/report/page.hpp"
 #include "rom_scene.hpp"
-#include "support/complaint.hpp"
 #include "support/report_block.hpp"
 #include "support/same_bits.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -8,8 +6,7 @@
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
 #include "rom_scene.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

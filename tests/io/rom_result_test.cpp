@@ -1,11 +1,6 @@
 #include "io/result/rom_result.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <charconv>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,7 +9,7 @@
 #include "io/result/clock_text.hpp"
 #include "io/result/scope_text.hpp"
 #include "rom_scene.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

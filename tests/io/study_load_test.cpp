@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "study_of_arms.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 /// Contact pressure and balanced loads in studies.
 

@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
-#include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
 #include "study_of_arms.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 /// Measures of a hip's shape as columns of a study.
 

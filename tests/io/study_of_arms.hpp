@@ -1,19 +1,12 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <map>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "condyle/io/study.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/whole_file.hpp"
-#include "support/complaint.hpp"
 #include "support/small_cohort.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 

@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/sample/hip.hpp"
 #include "study_of_arms.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 /// The bone that must go as columns of a study.
 

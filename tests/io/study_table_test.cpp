@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <string_view>
-
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/study.hpp"
 #include "io/result/sample_files.hpp"
 #include "io/study/study_joint.hpp"
 #include "study_of_arms.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 /// Contents that a study's table may have, and those that are refused.
 

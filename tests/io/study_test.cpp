@@ -1,22 +1,17 @@
 #include "condyle/io/study.hpp"
 
-#include <gtest/gtest.h>
 #include <hdf5.h>
 
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/version.hpp"
 #include "core/thread_limit.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/sample_files.hpp"
 #include "study_of_arms.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

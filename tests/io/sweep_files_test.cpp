@@ -1,14 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-
-#include "answer/sweep_summary.hpp"
-#include "condyle/error.hpp"
 #include "io/sweep/sweep_files.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
+#include "answer/sweep_summary.hpp"
+#include "support/test.hpp"
 
 /// A sweep that is written and read again says the same to the last bit.
 

@@ -1,14 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "io/sweep/target_table.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 /// Contents that a table of targets may have, and those that are refused.
 

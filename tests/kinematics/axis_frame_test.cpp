@@ -1,12 +1,7 @@
 #include "condyle/pose.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-
-#include "condyle/error.hpp"
 #include "core/predicates.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,20 +1,13 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <array>
-#include <cmath>
-#include <functional>
-#include <numbers>
 #include <numeric>
-#include <random>
 
 #include "condyle/angle.hpp"
-#include "condyle/error.hpp"
 #include "condyle/fit.hpp"
 #include "condyle/label_surface.hpp"
 #include "core/predicates.hpp"
 #include "kinematics/hip_anatomy.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "support/trochlea.hpp"
 #include "support/tube.hpp"
 #include "support/voxel_masks.hpp"

@@ -1,10 +1,5 @@
 #include "kinematics/hip_axes.hpp"
-#include "support/complaint.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
+#include "support/test.hpp"
 
 /// Axes and side of drawn hips: directions without bones, just beside each margin.
 

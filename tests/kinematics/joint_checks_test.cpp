@@ -1,14 +1,6 @@
 #include "condyle/joint_checks.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <functional>
-#include <numbers>
-
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Wrong set-ups of real hips are each answered with their note, right ones with none.
 

@@ -1,14 +1,9 @@
 #include "condyle/joint_coordinates.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <set>
-#include <string_view>
-#include <vector>
-
 #include "core/predicates.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,13 +1,9 @@
 #include "condyle/make_joint.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-
-#include "condyle/error.hpp"
 #include "core/predicates.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

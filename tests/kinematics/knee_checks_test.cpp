@@ -1,20 +1,8 @@
 #include "kinematics/knee_checks.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <numbers>
-#include <optional>
-
 #include "kinematics/knee_anatomy.hpp"
-#include "support/complaint.hpp"
 #include "support/drawn_bones.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// A femur's condyles contradict wrong axes and sides of a knee, and never right ones.
 

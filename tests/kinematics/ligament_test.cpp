@@ -1,15 +1,9 @@
 #include "condyle/joint.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <random>
-
 #include "core/rotation_about.hpp"
 #include "kinematics/ligament_path.hpp"
 #include "support/random_pose.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,13 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <optional>
-#include <random>
-#include <vector>
-
 #include "condyle/joint.hpp"
 #include "core/rotation_about.hpp"
+#include "support/test.hpp"
 
 /// How fast ligaments of a moving body become longer, and what their damping adds.
 

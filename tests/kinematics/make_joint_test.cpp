@@ -1,15 +1,8 @@
 #include "condyle/make_joint.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-
-#include "condyle/error.hpp"
 #include "core/predicates.hpp"
-#include "support/complaint.hpp"
 #include "support/same_bits.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "support/tube.hpp"
 
 namespace condyle {

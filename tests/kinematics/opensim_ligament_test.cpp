@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "condyle/joint.hpp"
+#include "support/test.hpp"
 
 /// What testBlankevoort1991Ligament asks in testForces.cpp of OpenSim (github.com/opensim-org/opensim-core, Apache 2.0): its
 /// sizes, lengths and expectations are facts from there; the model and its motion are made anew. Metres there, millimetres here.

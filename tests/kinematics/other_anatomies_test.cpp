@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "kinematics/ankle_anatomy.hpp"
 #include "kinematics/elbow_anatomy.hpp"
 #include "kinematics/shoulder_anatomy.hpp"
-#include "support/complaint.hpp"
 #include "support/drawn_bones.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Drawn ankles, elbows and shoulders with known axes, turned at random and with noise.
 

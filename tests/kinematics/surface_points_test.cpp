@@ -1,11 +1,5 @@
 #include "kinematics/surface_points.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <vector>
+#include "support/test.hpp"
 
 /// Means of normals over the points around, of surfaces that have many of them.
 

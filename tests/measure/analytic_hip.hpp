@@ -1,9 +1,7 @@
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "condyle/joint.hpp"
+#include "support/test.hpp"
 
 /// Bones whose measures have closed forms, of facets of one degree.
 

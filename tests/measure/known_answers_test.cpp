@@ -1,13 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "condyle/hip_measures.hpp"
 #include "condyle/inspect.hpp"
 #include "measure/analytic_hip.hpp"
 #include "measure/degree.hpp"
 #include "measure/neck_axis.hpp"
+#include "support/test.hpp"
 
 /// Measures of shapes with closed forms: within 0.01 degrees at facets of one degree.
 

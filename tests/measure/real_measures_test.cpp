@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <cmath>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
-#include "condyle/sample/hip.hpp"
 #include "measure/analytic_hip.hpp"
 #include "mesh/subdivide.hpp"
 #include "support/real_hip.hpp"
+#include "support/test.hpp"
 #include "support/voxelised.hpp"
 
 /// Real hips: the values of an independent prototype, and what must not change them.

@@ -1,10 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <iostream>
-#include <random>
 
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
@@ -14,6 +8,7 @@
 #include "measure/sample_shape.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
+#include "support/test.hpp"
 
 /// Sample hips are measured as they were made: as their parameters say where a parameter means the measure, and as their solids are
 /// where it means something else.

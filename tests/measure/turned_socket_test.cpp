@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <utility>
-#include <vector>
-
 #include "condyle/hip_measures.hpp"
 #include "condyle/make_joint.hpp"
 #include "measure/analytic_hip.hpp"
 #include "measure/degree.hpp"
+#include "support/test.hpp"
 
 /// A spherical socket cut from its bone and turned about the head's centre: centre-edge angles and coverage in closed form.
 

@@ -1,13 +1,8 @@
 #include "mesh/label_surface/contour.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/label_surface/cell_loops.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "support/voxel_masks.hpp"
 
 namespace condyle::mesh {

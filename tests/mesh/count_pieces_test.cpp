@@ -1,11 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
-#include <random>
-#include <vector>
-
 #include "mesh/label_surface/voxel_pieces.hpp"
+#include "support/test.hpp"
 
 /// Pieces of all values in one pass, against the pieces of one value at a time.
 

@@ -1,21 +1,11 @@
 #include "mesh/cut_mesh.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
-#include <random>
 
-#include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/plane_outline.hpp"
-#include "mesh/self_crossings.hpp"
-#include "support/complaint.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Meshes cut by planes into two closed ones.
 

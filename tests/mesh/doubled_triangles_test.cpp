@@ -1,13 +1,10 @@
 #include "mesh/doubled_triangles.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstddef>
 
 #include "condyle/inspect.hpp"
 #include "mesh/enclosed_volume.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::mesh {
 namespace {

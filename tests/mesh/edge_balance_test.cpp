@@ -1,14 +1,9 @@
 #include "mesh/edge_balance.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "mesh/edge_table.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/parameter_names.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,14 +1,8 @@
 #include "mesh/edge_table.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <random>
 #include <thread>
-#include <vector>
 
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,16 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "mesh/surface_distance.hpp"
 #include "mesh/surface_to_surface.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// What test/test_fcl_shape_mesh_consistency.cpp of FCL asks (github.com/flexible-collision-library/fcl, commit e5efcc4, BSD): shapes and
 /// meshes of them with 16 segments and 16 rings, apart and touching. Sizes, places and expectations are facts from there, the meshes are made

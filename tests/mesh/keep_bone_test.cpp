@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <optional>
-
 #include "mesh/label_surface/voxel_pieces.hpp"
+#include "support/test.hpp"
 #include "support/voxel_masks.hpp"
 
 /// Which pieces of a label are one bone.

@@ -1,14 +1,7 @@
 #include "condyle/label_surface.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-#include <utility>
-
 #include "mesh/enclosed_volume.hpp"
+#include "support/test.hpp"
 #include "support/voxel_masks.hpp"
 
 namespace condyle {

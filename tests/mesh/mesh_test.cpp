@@ -1,16 +1,8 @@
 #include "condyle/mesh.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
 #include <type_traits>
 
-#include "condyle/error.hpp"
-#include "support/complaint.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

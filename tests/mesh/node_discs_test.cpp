@@ -1,14 +1,8 @@
 #include "mesh/node_discs.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <random>
-
 #include "mesh/subdivide.hpp"
 #include "mesh/surface_distance.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::mesh {
 namespace {

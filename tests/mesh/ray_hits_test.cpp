@@ -1,13 +1,7 @@
 #include "mesh/ray_hits.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "simd/instruction_set.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::mesh {
 namespace {

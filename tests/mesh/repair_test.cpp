@@ -1,12 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
-#include "support/complaint.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

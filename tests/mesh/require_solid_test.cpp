@@ -1,14 +1,7 @@
 #include "mesh/require_solid.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "mesh/enclosed_volume.hpp"
-#include "support/complaint.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

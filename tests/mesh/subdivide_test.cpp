@@ -1,12 +1,7 @@
 #include "mesh/subdivide.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
 #include "core/thread_limit.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

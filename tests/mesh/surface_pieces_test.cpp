@@ -1,13 +1,6 @@
 #include "mesh/surface_pieces.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-#include <utility>
-#include <vector>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// The connected pieces of a surface, and which of it nothing outside can touch.
 

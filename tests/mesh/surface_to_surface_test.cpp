@@ -1,12 +1,8 @@
 #include "mesh/surface_to_surface.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "mesh/triangle_intersection.hpp"
 #include "support/random_triangles.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// The smallest distance of two surfaces, in closed form and against all pairs of triangles.
 

@@ -1,10 +1,7 @@
 #include "mesh/triangle_intersection.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "support/brute_force.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

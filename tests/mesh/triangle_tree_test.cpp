@@ -1,10 +1,6 @@
 #include "mesh/triangle_tree.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,8 +1,6 @@
 #include "mesh/vertex_triangles.hpp"
 
-#include <gtest/gtest.h>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,16 +1,7 @@
 #include "support/voxelised.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <random>
-
 #include "mesh/winding_number.hpp"
-#include "support/test_meshes.hpp"
-#include "support/tube.hpp"
+#include "support/test.hpp"
 
 /// The voxeliser of the tests and of the bench, against winding numbers.
 

@@ -1,8 +1,7 @@
 #include "condyle/motion_contact.hpp"
 
-#include <gtest/gtest.h>
-
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// Checks of layers, loads and motions.
 

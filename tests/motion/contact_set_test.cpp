@@ -1,13 +1,10 @@
 #include "motion/search/contact_set.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <numbers>
 
 #include "core/thread_limit.hpp"
 #include "motion/rotation_scenes.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::motion {
 namespace {

@@ -1,11 +1,8 @@
 #include "motion/events/cylinder_box.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <array>
-#include <numbers>
-#include <random>
+#include "support/test.hpp"
 
 namespace condyle::motion {
 namespace {

@@ -1,13 +1,7 @@
 #include "condyle/range_of_motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "condyle/error.hpp"
-#include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Limits by allowed depth, where the depth is known.
 

@@ -1,20 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <iterator>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "support/brute_force.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Meshes as the world has them: each defect that inspect() reports, by itself and with every other one. An answer is
 /// that of brute force on the very triangles, or it is refused in one line, and then the mesh is open.

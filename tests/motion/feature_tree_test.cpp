@@ -1,14 +1,8 @@
 #include "motion/search/feature_tree.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "motion/search/rotation_table.hpp"
 #include "support/brute_force.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::motion {
 namespace {

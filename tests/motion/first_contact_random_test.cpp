@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "mesh/surface_distance.hpp"
 #include "motion/rotation_scenes.hpp"
 #include "support/brute_force.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// First contact of random meshes: against every pair of features, against exact triangle tests just before
 /// and just after, and against itself in other words.

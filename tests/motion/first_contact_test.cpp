@@ -1,14 +1,8 @@
 #include "motion/search/first_contact.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "condyle/error.hpp"
 #include "core/parallel.hpp"
 #include "motion/rotation_scenes.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// First contact where the angle is known in closed form, in several orientations and 10 m away.
 

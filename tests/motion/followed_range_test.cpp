@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <optional>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Limits of joints whose centre is not held: free before them and in contact after them, as exact tests of triangles at poses say.
 

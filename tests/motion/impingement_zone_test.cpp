@@ -1,14 +1,8 @@
 #include "condyle/impingement_zone.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-
-#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/rom/socket_hour.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Clock faces, necks and zones with known geometry.
 

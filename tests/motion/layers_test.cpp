@@ -1,20 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <optional>
-#include <random>
 #include <span>
-#include <string>
-#include <vector>
 
-#include "condyle/error.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Bodies of several meshes whose contact ends a motion, slides or gives way: each answer is that of the pairs of meshes, each pair
 /// searched as a joint of its own.

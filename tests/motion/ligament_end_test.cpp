@@ -1,12 +1,7 @@
 #include "motion/events/ligament_end.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "core/rotation_about.hpp"
+#include "support/test.hpp"
 
 namespace condyle::motion {
 namespace {

@@ -1,15 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <numbers>
-#include <random>
-
 #include "condyle/contact.hpp"
 #include "condyle/motion_map.hpp"
 #include "motion/joint_scenes.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Maps that translate a joint: against closed forms of a ball, a hinge and a slot, and against exact predicates at random poses.
 

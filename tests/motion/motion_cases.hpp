@@ -1,9 +1,7 @@
 #pragma once
 
-#include <random>
-
 #include "condyle/range_of_motion.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Parts of the cases that several tests of motions have in common.
 

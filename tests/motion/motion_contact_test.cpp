@@ -1,9 +1,8 @@
 #include "condyle/motion_contact.hpp"
 
-#include <gtest/gtest.h>
-
 #include "condyle/contact.hpp"
 #include "support/cup.hpp"
+#include "support/test.hpp"
 
 /// Frames of a motion give the results of single poses.
 

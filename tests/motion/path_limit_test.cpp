@@ -1,10 +1,8 @@
 #include "condyle/range_of_motion.hpp"
 
-#include <gtest/gtest.h>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "support/test.hpp"
 
 /// Paths in several angles: never past a contact, by exact triangle tests; along one angle the exact limit.
 

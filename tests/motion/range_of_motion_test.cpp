@@ -1,19 +1,11 @@
 #include "condyle/range_of_motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <array>
-#include <cmath>
-#include <set>
-#include <utility>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/limit_band.hpp"
 #include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
+#include "support/test.hpp"
 
 /// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,
 /// and the same bytes whichever way they are asked for.

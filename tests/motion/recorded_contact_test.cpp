@@ -1,17 +1,9 @@
 #include "condyle/motion_contact.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/recorded/screw_motion.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Contact between samples: in closed form about a held centre, by a proven bound otherwise.
 

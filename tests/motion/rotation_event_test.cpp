@@ -1,11 +1,10 @@
 #include "motion/events/rotation_event.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <numbers>
-#include <vector>
+
+#include "support/test.hpp"
 
 namespace condyle::motion {
 namespace {

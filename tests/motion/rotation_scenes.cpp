@@ -1,7 +1,6 @@
 #include "motion/rotation_scenes.hpp"
 
 #include <map>
-#include <numbers>
 
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"

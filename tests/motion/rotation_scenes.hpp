@@ -1,10 +1,7 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <random>
-
 #include "motion/search/first_contact.hpp"
+#include "support/test.hpp"
 
 /// Scenes for rotating meshes, and the obvious first contact: every pair of features, no tree, no box, no
 /// early exit.

@@ -1,9 +1,5 @@
 #include "motion/recorded/screw_motion.hpp"
-
-#include <gtest/gtest.h>
-
-#include <numbers>
-#include <random>
+#include "support/test.hpp"
 
 /// Screw motions hold what defines them: both poses, one line, one speed.
 

@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "condyle/range_of_motion.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
 #include "support/parametric_shoulder.hpp"
+#include "support/test.hpp"
 
 /// A shoulder of parametric parts: what meets the acromion ends a motion, what slides in the glenoid does not.
 

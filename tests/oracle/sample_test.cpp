@@ -1,16 +1,10 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <optional>
-#include <random>
-#include <utility>
-#include <vector>
 
 #include "condyle/sample/hip.hpp"
 #include "sample/self_intersection.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,15 +1,9 @@
 #include "plan/refine.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <utility>
-#include <vector>
 
 #include "mesh/edge_table.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Smaller triangles around a cut, counted before they are made.
 

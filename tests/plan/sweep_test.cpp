@@ -1,27 +1,17 @@
 #include "condyle/sweep.hpp"
 
-#include <gtest/gtest.h>
-
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/implant.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/sample/hip.hpp"
 #include "plan/design_limits.hpp"
 #include "plan/joined_body.hpp"
 #include "plan/safe_zones.hpp"
+#include "support/test.hpp"
 
 /// Sweeps against the closed forms of docs/mathematics/13-implants.md, and against joints made anew for each design.
 

@@ -5,7 +5,6 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -1,17 +1,12 @@
 #include "radial/build/cube_table.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "radial/build/cell_radii.hpp"
 #include "radial/build/direction_pyramid.hpp"
 #include "radial/query/point_blocks.hpp"
 #include "radial/update/slack_updates.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/parameter_names.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::radial {
 namespace {

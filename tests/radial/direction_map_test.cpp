@@ -1,11 +1,7 @@
 #include "radial/exact/direction_map.hpp"
 
-#include <gtest/gtest.h>
-
-#include <map>
-#include <random>
-
 #include "radial/exact/cell_dop.hpp"
+#include "support/test.hpp"
 
 namespace condyle::radial {
 namespace {

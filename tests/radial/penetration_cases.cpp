@@ -1,11 +1,7 @@
 #include "radial/penetration_cases.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "radial/query/point_blocks.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

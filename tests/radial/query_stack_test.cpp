@@ -1,15 +1,11 @@
-#include <gtest/gtest.h>
 #include <pthread.h>
 
-#include <algorithm>
-#include <cstdlib>
-#include <functional>
 #include <memory>
 #include <span>
 
 #include "condyle/radial.hpp"
 #include "simd/instruction_set.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)

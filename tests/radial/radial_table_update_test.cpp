@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <limits>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "condyle/radial.hpp"
 #include "radial/penetration_cases.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/parameter_names.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::radial {
 namespace {

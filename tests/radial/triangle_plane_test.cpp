@@ -1,11 +1,8 @@
 #include "radial/exact/triangle_plane.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <random>
-
 #include <boost/multiprecision/cpp_int.hpp>
+
+#include "support/test.hpp"
 
 namespace condyle::radial {
 namespace {

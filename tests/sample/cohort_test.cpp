@@ -1,10 +1,6 @@
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "condyle/sample/hip.hpp"
 #include "sample/parameter_checks.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {

@@ -1,13 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "condyle/range_of_motion.hpp"
 #include "sample/made_hips.hpp"
+#include "support/test.hpp"
 
 /// The sample hip behaves as clinicians find deformed hips to behave.
 

@@ -1,21 +1,11 @@
 #include "sample/field.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
-#include "condyle/error.hpp"
 #include "sample/cartilage_shape.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
 #include "sample/projection.hpp"
 #include "sample/skeleton.hpp"
+#include "support/test.hpp"
 
 namespace condyle::sample {
 namespace {

@@ -1,17 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include "condyle/joint_checks.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "sample/made_hips.hpp"
+#include "support/test.hpp"
 #include "support/voxelised.hpp"
 
 /// Limits of a hip that was made into voxels and is read from them again, as from a label map, against its own.

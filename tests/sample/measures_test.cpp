@@ -1,20 +1,12 @@
-#include <gtest/gtest.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <utility>
-#include <vector>
 
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
 #include "sample/made_hips.hpp"
 #include "sample/projection.hpp"
 #include "sample/section.hpp"
+#include "support/test.hpp"
 
 /// Clinical measures, measured on the meshes.
 

@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <utility>
-#include <vector>
-
 #include "condyle/contact_measures.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
+#include "support/test.hpp"
 
 /// Overlaps of the sample's bones and cartilages, against values that exact integration gave in another program, to the digits it
 /// gave; those of cartilages along two directions.

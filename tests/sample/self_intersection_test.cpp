@@ -1,12 +1,8 @@
 #include "sample/self_intersection.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "core/thread_limit.hpp"
 #include "support/brute_force.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::sample {
 namespace {

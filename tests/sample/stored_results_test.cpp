@@ -1,12 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <cmath>
-#include <cstdint>
 #include <ostream>
-#include <string>
 #include <type_traits>
-#include <vector>
 
 #include "condyle/contact.hpp"
 #include "condyle/pose.hpp"
@@ -15,6 +9,7 @@
 #include "core/thread_limit.hpp"
 #include "sample/made_hips.hpp"
 #include "simd/instruction_set.hpp"
+#include "support/test.hpp"
 
 /// Answers on the sample hip as they have always been: a change of the code that is not meant to change them
 /// shows here at the first bit. A change that is meant to: store the new hashes, and say in the commit why.

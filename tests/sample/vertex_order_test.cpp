@@ -1,15 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <random>
-#include <utility>
-#include <vector>
 
 #include "condyle/contact.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "sample/made_hips.hpp"
+#include "support/test.hpp"
 
 /// The same surfaces with vertices, triangles and corners in another order. Decisions and pairs are the same. Of numbers the last
 /// bits may differ: a plane is rounded from its first corner, and of features that meet at the same angle, as an edge and its

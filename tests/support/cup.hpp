@@ -1,9 +1,7 @@
 #pragma once
 
-#include <numbers>
-
 #include "condyle/pressure.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// A ball in a hemispherical cup, whose contact has a closed form.
 

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "condyle/label_surface.hpp"
 #include "condyle/mesh.hpp"
+#include "support/test.hpp"
 #include "support/voxel_masks.hpp"
 
 /// Bones drawn as solids with known axes, extracted from voxels of 1.5 mm: X anterior, Y superior, Z to the right, the

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <initializer_list>
-#include <string>
-#include <string_view>
 
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 /// Joint files for tests, which say only what they are about.
 

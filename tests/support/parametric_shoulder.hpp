@@ -1,13 +1,7 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <vector>
-
 #include "condyle/joint.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// A right shoulder of parts whose limits have closed forms: a ball with a square shaft, a slab with a shallow dish, and a plate
 /// above as an acromion.

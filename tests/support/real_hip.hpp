@@ -1,9 +1,7 @@
 #pragma once
 
-#include <optional>
-
 #include "condyle/joint.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 

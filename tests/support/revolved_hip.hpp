@@ -1,15 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "condyle/inspect.hpp"
 #include "condyle/make_joint.hpp"
 #include "support/parametric_shoulder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// A right hip of two solids of revolution whose abduction and adduction have a closed form, and strange things to put into its meshes.
 

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <cstdint>
-#include <string_view>
-#include <vector>
 
 #include "condyle/mesh.hpp"
+#include "support/test.hpp"
 
 /// Apart from test_meshes.hpp, which programs without a test framework build too.
 

@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-#include <string>
-
 #include "condyle/io/mesh_file.hpp"
 #include "mesh/subdivide.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <map>
 
 #include "condyle/label_surface.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cmath>
-#include <functional>
-
 #include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 

@@ -1,14 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-
 #include "condyle/inspect.hpp"
 #include "condyle/label_surface.hpp"
 #include "support/sound_mesh.hpp"
+#include "support/test.hpp"
 
 /// Masks of simple bodies, and what every surface of one must fulfil.
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
-
 #include "condyle/tangential.hpp"
 #include "core/predicates.hpp"
+#include "support/test.hpp"
 #include "tangential/build/profile_grid.hpp"
 
 /// Points that rotate about the z axis, and how well their angles are known.

@@ -1,13 +1,7 @@
 #include "tangential/exact/arctangent.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-
 #include "core/predicates.hpp"
+#include "support/test.hpp"
 
 namespace condyle::tangential {
 namespace {

@@ -1,14 +1,8 @@
 #include "tangential/query/classify_crossings.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <random>
-#include <vector>
-
 #include "mesh/triangle_intersection.hpp"
 #include "simd/instruction_set.hpp"
+#include "support/test.hpp"
 
 namespace condyle::tangential {
 namespace {

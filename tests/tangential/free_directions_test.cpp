@@ -1,13 +1,7 @@
 #include "tangential/build/free_directions.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <optional>
-#include <random>
-
 #include "mesh/winding_number.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "tangential/build/rings.hpp"
 
 namespace condyle::tangential {

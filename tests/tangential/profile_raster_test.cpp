@@ -1,14 +1,7 @@
 #include "tangential/build/profile_raster.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-#include <set>
-#include <vector>
-
 #include "support/random_triangles.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::tangential {
 namespace {

@@ -1,16 +1,7 @@
 #include "condyle/tangential.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <random>
-#include <utility>
-#include <vector>
-
 #include "mesh/winding_number.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
 #include "tangential/exact/circle_crossing.hpp"

@@ -1,13 +1,7 @@
 #include "condyle/tangential.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "mesh/winding_number.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
 

@@ -1,14 +1,6 @@
 #include "condyle/tangential.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "tangential/about_z.hpp"
 
 namespace condyle::tangential {

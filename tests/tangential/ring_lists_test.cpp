@@ -1,16 +1,8 @@
 #include "tangential/build/ring_lists.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
-#include <vector>
-
 #include "simd/instruction_set.hpp"
 #include "support/random_triangles.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "tangential/build/box_cells.hpp"
 #include "tangential/query/circle_cells.hpp"
 #include "tangential/query/gather_candidates.hpp"

@@ -1,20 +1,11 @@
 #include "condyle/tangential.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "mesh/winding_number.hpp"
 #include "simd/instruction_set.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "tangential/about_z.hpp"
 
 namespace condyle::tangential {

@@ -1,20 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <numbers>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 #include "support/voxelised.hpp"
 
 /// Label maps as people have them, of the sample hip and two real ones, degraded by a seeded draw: right within 5 degrees, refused, or with a note of

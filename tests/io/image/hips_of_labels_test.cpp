@@ -1,10 +1,8 @@
 #include "io/image/hips_of_labels.hpp"
 
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include "condyle/error.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

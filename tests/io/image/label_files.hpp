@@ -1,13 +1,9 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <array>
 #include <bit>
-#include <cstdint>
 #include <cstring>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "support/test.hpp"
 
 /// Label maps written in every way that the readers know, by code that shares nothing with them.
 

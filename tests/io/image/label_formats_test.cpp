@@ -1,13 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

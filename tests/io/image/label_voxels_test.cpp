@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

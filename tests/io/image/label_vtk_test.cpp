@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -8,6 +7,7 @@
 
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include <array>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "io/image/label_files.hpp"
 #include "io/result/label_result.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 /// Label maps of very many labels: what takes the product of labels and voxels does not end.
 

@@ -1,16 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include <array>
 #include <tuple>
 
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 // What a joint does not need does not refuse it, and what it needs is read before anything is proposed.
 

@@ -1,19 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <string>
 
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "io/motion/model_poses.hpp"
 #include "io/motion/motion_text.hpp"
 #include "io/result/model_result.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 /// Models in which things of one kind are many and meet: whatever takes the square of their number does not end.
 

@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <functional>
-#include <random>
-
 #include "condyle/io/model_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/sample/hip.hpp"
 #include "support/knee_model.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Ligaments that are spoiled by mistakes that people make are noted, and sound ones are not.
 

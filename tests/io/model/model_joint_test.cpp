@@ -1,22 +1,15 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
 #include <fmt/ranges.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "io/model/pose_of_rows.hpp"
 #include "io/motion/motion_text.hpp"
-#include "support/complaint.hpp"
 #include "support/mesh_bytes.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 // Joint files for joints of models: wherever a joint's coordinates are, they place the child's body where the model does.
 

@@ -1,17 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "condyle/answer.hpp"
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "support/knee_model.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Ligaments of a published knee against lengths, strains and forces that OpenSim printed along its passive flexion.
 

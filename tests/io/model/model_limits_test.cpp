@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include <numbers>
-
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
 #include "io/motion/motion_text.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Ranges and locks of a model's coordinates, and bounds of its layers: they change nothing, and what contradicts them is noted.
 

@@ -1,11 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "condyle/io/model_file.hpp"
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 /// One knee in files of four generations of OpenSim: the same joint.
 

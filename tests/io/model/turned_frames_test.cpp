@@ -1,19 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
 
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "io/motion/motion_text.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 // Joint frames that are turned in their bodies: angles are named by the body's axes, X forwards, Y up and Z to the right.
 

@@ -1,20 +1,14 @@
 #include "io/motion/curve_files.hpp"
 
-#include <gtest/gtest.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
-#include <array>
 #include <bit>
-#include <cmath>
-#include <limits>
 
-#include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "io/file/whole_file.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,14 +1,11 @@
 #include "condyle/io/joint_file.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/motion/some_pose.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Recorded poses of both bodies become poses of the joint, whatever its frame.
 

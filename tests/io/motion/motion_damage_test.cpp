@@ -1,14 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <set>
-#include <vector>
-
 #include "condyle/io/recorded_motion.hpp"
 #include "io/motion/load_table.hpp"
 #include "io/motion/motion_text.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 /// The error for a damaged file is one line that names the place. Each kind of file is damaged in turn.
 

@@ -1,16 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"
-#include "support/complaint.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 /// Recorded motions as text, and what reading them gives.
 

@@ -1,11 +1,6 @@
 #include "io/joint/recorded_motion_table.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-
-#include "condyle/error.hpp"
-#include "support/complaint.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {

@@ -1,15 +1,9 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "support/joint_text.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Columns of speeds beside those of values become velocities of the mobile body.
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "condyle/error.hpp"
+#include "support/complaint.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+/// What every test may use, beside what it is about: the standard library, meshes, refusals, real joints and folders of its own.
