@@ -1,18 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "mesh/cut_mesh.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/parametric_shoulder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// One answer for every shell: limits as their own functions give them, with the notes that they must be read with.
 
@@ -23,11 +15,7 @@ using namespace test;
 
 /// The joint as it turns about another point: both meshes moved until it is the origin.
 Joint about(const Joint& joint, const Vec3& centre) {
-  const auto moved = [&](const Body& body) {
-    TriMesh mesh = body.mesh;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] - centre);
-    return Body{body.name, mesh};
-  };
+  const auto moved = [&](const Body& body) { return Body{body.name, test::shifted_by(body.mesh, -centre)}; };
   Joint other = joint;
   other.fixed = moved(joint.fixed);
   other.mobile = moved(joint.mobile);

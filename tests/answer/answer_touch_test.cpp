@@ -1,14 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "contact/body_pair.hpp"
 #include "contact/deepest_place.hpp"
 #include "mesh/subdivide.hpp"
@@ -16,7 +8,7 @@
 #include "mesh/winding_number.hpp"
 #include "support/random_pose.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Two meshes without a joint: depth, volume and ways out against closed forms, sampling and the question asked again.
 
@@ -446,8 +438,7 @@ TEST(Touch, RefusesWhatIsNoPoseDirectionOrMesh) {
 }
 
 TEST(Touch, OfRealBonesIsThatOfTheirPoints) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no real hip";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const Pose X_FM = at({0.5, 6, 1});
   const TouchAnswer answer =
       answer_touch(hip->fixed.mesh, hip->mobile.mesh, {.X_FM = X_FM, .along = {{1, 0, 0}, {0, -1, 0}}});

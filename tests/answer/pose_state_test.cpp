@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "condyle/answer.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// One rule for what a pose is to the limits of its joint: against the limits of motions that start there, one by one.
 
@@ -33,8 +29,7 @@ const Joint arm{.name = "arm",
                 .mobile = {"arm", box({-1, -100, -2}, {1, -10, 2})}};
 
 TEST(PoseState, OfAHipIsWhatItsLimitsSay) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no shared data";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const auto limits = limits_of_poses(*hip);
   ASSERT_TRUE(limits);
   // The bearing surfaces meet from some 91 degrees of internal rotation on, and motions end at 102.6.

@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "condyle/answer.hpp"
 #include "condyle/joint_checks.hpp"
 #include "support/revolved_hip.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Files that are not one clean adult bone in millimetres: surfaces inside others, specks, second bones, other units, other sizes. Limits are
 /// those of the clean joint, or a note says what moved them.
@@ -225,8 +220,7 @@ TEST(StrangeMeshes, BonesInTwoUnitsAreNotedAndTheOneToScaleIsNamed) {
 }
 
 TEST(StrangeMeshes, WallsInsideRealBonesChangeNoLimitOfThem) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const auto folder = *data / "hip_vhf_right";
   const TriMesh bone = read_ply(folder / "hip_bone.ply"), femur = read_ply(folder / "femur.ply");
   const auto inwards = [](const TriMesh& mesh, double by) {

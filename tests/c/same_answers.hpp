@@ -1,16 +1,12 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
 #include "c/held.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/first_contact.hpp"
 #include "condyle/pressure.hpp"
 #include "condyle/sample/hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/random_pose.hpp"
+#include "support/test.hpp"
 
 /// Two bones, and answers of C against those of C++.
 
@@ -19,13 +15,6 @@ namespace condyle::test {
 inline const sample::SampleHip& hip() {
   static const sample::SampleHip made = sample::sample_hip({}, sample::Scenario::two);
   return made;
-}
-
-inline Pose rotated(double degrees, const Vec3& axis, const Vec3& shift = Vec3::Zero()) {
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(Angle::degrees(degrees).radians(), axis.normalized()).toRotationMatrix();
-  X.translation() = shift;
-  return X;
 }
 
 /// The options of C++ as C takes them.

@@ -1,15 +1,9 @@
-#include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-
 #include "c/held.hpp"
 #include "c/same_answers.hpp"
-#include "condyle/error.hpp"
+#include "support/test.hpp"
 
 /// Contacts of C follow bodies that deform as those of C++ do, and refuse what these refuse.
 
@@ -128,16 +122,6 @@ struct PressedBall {
   HeldDepth depth = made<HeldDepth>(condyle_normal_depth_create, F.get(), M.get(), CONDYLE_CUT_FACES, 20.0);
 };
 
-/// The line of C++, whatever kind of error it is.
-std::string line_of(const auto& update) {
-  try {
-    update();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(CUpdate, WhatIsRefusedHasTheLineOfCppAndChangesNothing) {
   const PressedBall ball;
   const TriMesh &fixed = ball.fixed, &mobile = ball.mobile;
@@ -173,11 +157,11 @@ TEST(CUpdate, WhatIsRefusedHasTheLineOfCppAndChangesNothing) {
         std::pair{&far, CONDYLE_BAD_MESH}}) {
     const std::vector<double> xyz = c_points(*points);
     expect_refused(condyle_joint_contact_update(c_joint, CONDYLE_MOBILE, xyz.data(), points->size()),
-                   line_of([&, all = points] { joint.update(BodyRole::mobile, *all); }), status);
+                   test::complaint_of([&, all = points] { joint.update(BodyRole::mobile, *all); }), status);
     expect_refused(condyle_elastic_contact_update(c_elastic, CONDYLE_MOBILE, xyz.data(), points->size()),
-                   line_of([&, all = points] { elastic.update(BodyRole::mobile, *all); }), status);
+                   test::complaint_of([&, all = points] { elastic.update(BodyRole::mobile, *all); }), status);
     expect_refused(condyle_normal_depth_update_target(c_depth, xyz.data(), points->size()),
-                   line_of([&, all = points] { depth.update_target(*all); }), status);
+                   test::complaint_of([&, all = points] { depth.update_target(*all); }), status);
     expect_unchanged();
   }
 
@@ -185,14 +169,14 @@ TEST(CUpdate, WhatIsRefusedHasTheLineOfCppAndChangesNothing) {
   const std::vector<double> xyz = c_points(three);
   for (const std::vector<Index>& numbers : {std::vector<Index>{3, 9999, 4}, std::vector<Index>{3, 4, 3}}) {
     expect_refused(condyle_joint_contact_update_some(c_joint, CONDYLE_MOBILE, numbers.data(), 3, xyz.data()),
-                   line_of([&] { joint.update(BodyRole::mobile, numbers, three); }));
+                   test::complaint_of([&] { joint.update(BodyRole::mobile, numbers, three); }));
     expect_refused(
         condyle_elastic_contact_update_some(c_elastic, CONDYLE_MOBILE, numbers.data(), 3, xyz.data()),
-        line_of([&] { elastic.update(BodyRole::mobile, numbers, three); }));
+        test::complaint_of([&] { elastic.update(BodyRole::mobile, numbers, three); }));
     expect_refused(condyle_normal_depth_update_casting_some(c_depth, numbers.data(), 3, xyz.data()),
-                   line_of([&] { depth.update_casting(numbers, three); }));
+                   test::complaint_of([&] { depth.update_casting(numbers, three); }));
     expect_refused(condyle_normal_depth_update_target_some(c_depth, numbers.data(), 3, xyz.data()),
-                   line_of([&] { depth.update_target(numbers, three); }));
+                   test::complaint_of([&] { depth.update_target(numbers, three); }));
     expect_unchanged();
   }
 
@@ -203,7 +187,8 @@ TEST(CUpdate, WhatIsRefusedHasTheLineOfCppAndChangesNothing) {
   (void)joint.at(Pose::Identity());
   expect_refused(condyle_joint_contact_update(c_joint, CONDYLE_MOBILE, c_points(through_centre).data(),
                                               through_centre.size()),
-                 line_of([&] { joint.update(BodyRole::mobile, through_centre); }), CONDYLE_BAD_MESH);
+                 test::complaint_of([&] { joint.update(BodyRole::mobile, through_centre); }),
+                 CONDYLE_BAD_MESH);
   expect_unchanged();
 
   const std::vector<Index> numbers = {1, 2, 3};

@@ -1,9 +1,5 @@
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <numbers>
 #include <regex>
 
 #include "command.hpp"
@@ -407,11 +403,8 @@ TEST_F(SampleJointCommand, AnUnwritableFolderEndsWithThree) {
 TEST_F(SampleJointCommand, TenMetresFromTheOriginTheAnswersAreTheSame) {
   const Json near = answer(std::string("depth sample/hip.toml ") + deep);
   const Vec3 away(10000, -10000, 10000);
-  for (const char* name : {"sample/hip_bone.ply", "sample/femur.ply"}) {
-    TriMesh mesh = io::read_mesh(folder / name).mesh;
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices.set(i, mesh.vertices[i] + away);
-    io::write_mesh(folder / name, mesh);
-  }
+  for (const char* name : {"sample/hip_bone.ply", "sample/femur.ply"})
+    io::write_mesh(folder / name, shifted_by(io::read_mesh(folder / name).mesh, away));
   edit_joint("centre = [0.0, 0.0, 0.0]", "centre = [10000.0, -10000.0, 10000.0]");
   const Json far = answer(std::string("depth sample/hip.toml ") + deep);
   for (const char* key :

@@ -1,10 +1,5 @@
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-
 #include "motion_scene.hpp"
 #include "support/knee_model.hpp"
-#include "support/shared_data.hpp"
 
 /// Models of OpenSim on the command line.
 
@@ -59,8 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Knee, PublishedModel,
 class ModelHip : public CommandTest {
  protected:
   void SetUp() override {
-    const auto gait = shared_model("osim_gait2354");
-    if (!gait) GTEST_SKIP() << "the shared models are missing";
+    FOUND_OR_SKIP(gait, shared_model("osim_gait2354"));
     gait_ = *gait;
     model = (gait_ / "gait2354_simbody.osim").string();
   }
@@ -191,8 +185,7 @@ TEST_F(ModelHip, NotesAMotionThatLeavesItsRanges) {
 }
 
 TEST(RefusedModels, EndInOneLineOnTheCommandLine) {
-  const auto refused = shared_model("osim_small/refused");
-  if (!refused) GTEST_SKIP() << "no models to refuse";
+  FOUND_OR_SKIP(refused, shared_model("osim_small/refused"));
   const TemporaryFolder folder;
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(*refused)) {

@@ -1,10 +1,4 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "motion_scene.hpp"
-#include "support/shared_data.hpp"
 
 /// Further contents of answers on recorded motions, beside their curves.
 
@@ -41,8 +35,7 @@ TEST_F(Motion, FramesMetFromTheFrontAreCounted) {
 
 /// Matrices of both bones in the scanner's frame; the bodies are what the frames of the meshes are.
 TEST_F(Motion, AMeasuredKneeIsWhereItsReadmeSays) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "the shared motion is missing";
+  FOUND_OR_SKIP(data, shared_data());
   std::string knee = joint("free", "post.ply", "shank.ply",
                            "[recorded_motion]\nfixed_body = \"femur_distal_r\"\nmobile_body = "
                            "\"tibia_proximal_r\"\nunits = \"m\"\n");

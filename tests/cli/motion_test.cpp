@@ -1,11 +1,8 @@
-#include <cmath>
 #include <iomanip>
-#include <numbers>
 #include <sstream>
 
 #include "motion_scene.hpp"
 #include "support/knee_model.hpp"
-#include "support/shared_data.hpp"
 
 /// Recorded motions and loads on the command line.
 
@@ -292,8 +289,7 @@ TEST_F(Motion, LoadReportsWhatEachRegionCarries) {
 }
 
 TEST(GaitOnAHip, IsFreeInEveryFrameAndBetween) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "the shared hip is missing";
+  FOUND_OR_SKIP(data, shared_data());
   const TemporaryFolder folder;
   const std::string hip = fs::absolute(*data / "hip_vhf_right").string();
   std::ofstream(folder / "hip.toml") << text_of_joint(

@@ -1,9 +1,6 @@
-#include <cstdlib>
-
 #include "command.hpp"
 #include "condyle/angle.hpp"
 #include "support/knee.hpp"
-#include "support/shared_data.hpp"
 
 /// `condyle depth --method normal`: meshes may be open.
 
@@ -152,8 +149,7 @@ TEST_F(NormalMethod, IsAboutThePartsThatTheJointFileNames) {
 
 /// The first and the last frame of the published flexion of a knee, straight and bent, whose cartilages are open sheets.
 TEST(NormalMethodOnAKnee, GivesThePublishedDepths) {
-  const auto knee = shared_knee();
-  if (!knee) GTEST_SKIP() << "the shared knee is missing";
+  FOUND_OR_SKIP(knee, shared_knee());
   ::setenv("CONDYLE_DATA", fs::absolute(*shared_data()).c_str(), 1);
   const TemporaryFolder folder;
   // Eight decimals of a metre are published, of the coordinates too: half a digit along each axis, and what rounded angles

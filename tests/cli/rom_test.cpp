@@ -1,11 +1,6 @@
 #include <sys/wait.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <set>
 
 #include "command.hpp"
 #include "mesh/subdivide.hpp"
@@ -151,12 +146,8 @@ TEST_F(RomCommand, SaysWhereItComesFromInEveryFile) {
 }
 
 TEST_F(RomCommand, InTheSourceFramePointsAndZonesLieOnTheFiles) {
-  for (const char* name : {"post.ply", "arm.ply"}) {
-    TriMesh mesh = io::read_mesh(here / name).mesh;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      mesh.vertices.set(v, mesh.vertices[v] + Vec3(8, -4, 2));
-    io::write_mesh(here / name, mesh);
-  }
+  for (const char* name : {"post.ply", "arm.ply"})
+    io::write_mesh(here / name, shifted_by(io::read_mesh(here / name).mesh, {8, -4, 2}));
   edit("joint.toml", "[0, 0, 0]", "[8, -4, 2]");
   const std::string command = "rom joint.toml --motion flexion --past 4 --out out --json";
   const Json in_joint = Json::parse(run(command).out)["motions"][0];

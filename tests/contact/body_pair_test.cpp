@@ -1,15 +1,11 @@
 #include "contact/body_pair.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "condyle/angle.hpp"
 #include "contact/brute_pairs.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "support/brute_force.hpp"
-#include "support/test_meshes.hpp"
+#include "support/random_pose.hpp"
+#include "support/test.hpp"
 
 namespace condyle::contact {
 namespace {
@@ -40,15 +36,8 @@ std::vector<TrianglePair> each_with_each(const TriMesh& fixed, const TriMesh& po
   return pairs;
 }
 
-Pose turned(double degrees, const Vec3& axis, const Vec3& shift = Vec3::Zero()) {
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(Angle::degrees(degrees).radians(), axis.normalized()).toRotationMatrix();
-  X.translation() = shift;
-  return X;
-}
-
 Pose shifted(double x, double y = 0, double z = 0) {
-  return turned(0, {0, 0, 1}, {x, y, z});
+  return test::rotated(0, {0, 0, 1}, {x, y, z});
 }
 
 TEST(BodyPair, HasThePairsOfRationalArithmeticInEveryPose) {
@@ -56,7 +45,7 @@ TEST(BodyPair, HasThePairsOfRationalArithmeticInEveryPose) {
   const BodyPair bodies(fixed, mobile);
   std::size_t found = 0, free_poses = 0;
   for (int i = 0; i < 8; ++i) {
-    const Pose X = turned(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
+    const Pose X = test::rotated(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
     const auto pairs = bodies.pairs(X);
     EXPECT_EQ(pairs, test::brute_pairs(fixed, posed(X, mobile)));
     EXPECT_EQ(bodies.touch(X), !pairs.empty());
@@ -75,8 +64,8 @@ TEST(BodyPair, HasThePairsThatTestingEachWithEachFinds) {
   std::uniform_real_distribution<double> angle(-180, 180), shift(-3, 3);
   std::size_t found = 0;
   for (int i = 0; i < 20; ++i) {
-    const Pose X = turned(angle(random), {shift(random), shift(random), 1},
-                          i % 2 == 0 ? Vec3(Vec3::Zero()) : Vec3(shift(random), shift(random), 0));
+    const Pose X = test::rotated(angle(random), {shift(random), shift(random), 1},
+                                 i % 2 == 0 ? Vec3(Vec3::Zero()) : Vec3(shift(random), shift(random), 0));
     const auto pairs = bodies.pairs(X);
     EXPECT_EQ(pairs, each_with_each(fixed, posed(X, mobile)));
     found += pairs.size();
@@ -87,7 +76,7 @@ TEST(BodyPair, HasThePairsThatTestingEachWithEachFinds) {
 TEST(BodyPair, ABallInAMatchedSocketIsFreeUntilItsGapIsClosed) {
   const TriMesh ball = sphere({0, 0, 0}, 24, 4), hollow = test::socket({0, 0, 0}, 25, 28, 4);
   const BodyPair bodies(hollow, ball);
-  for (int i = 0; i < 30; ++i) EXPECT_FALSE(bodies.touch(turned(13 * i, {1.0 * i, 2, 3})));
+  for (int i = 0; i < 30; ++i) EXPECT_FALSE(bodies.touch(test::rotated(13 * i, {1.0 * i, 2, 3})));
   // The facets of the socket's inside sag outwards from the ball and those of the ball inwards: the gap is 1
   // mm at least.
   EXPECT_FALSE(bodies.touch(shifted(0.999)));
@@ -108,7 +97,7 @@ TEST(BodyPair, CrossedBarsTouchWithNoVertexInside) {
 
 TEST(BodyPair, ABodyInsideTheSolidOfTheOtherTouchesIt) {
   const TriMesh large = sphere({0.1, 0, 0}, 10, 2), small = sphere({2, 0, 0}, 1, 2);
-  const Pose aslant = turned(40, {1, 2, 3}, {0.5, -1, 0.25});
+  const Pose aslant = test::rotated(40, {1, 2, 3}, {0.5, -1, 0.25});
   for (const Pose& X : {Pose::Identity(), aslant}) {
     EXPECT_TRUE(BodyPair(large, small).pairs(X).empty());
     EXPECT_TRUE(BodyPair(large, small).touch(X));
@@ -151,7 +140,7 @@ TEST(BodyPair, TheLastHitIsAPairThatMeetsAndChangesNoAnswer) {
   std::optional<TrianglePair> last_witness;
   std::size_t hits = 0;
   for (int degrees = 0; degrees < 360; ++degrees) {
-    const Pose X = turned(degrees, {0, 0, 1});
+    const Pose X = test::rotated(degrees, {0, 0, 1});
     const bool touches = bodies.touch(X, last_witness);
     EXPECT_EQ(touches, bodies.touch(X)) << degrees;
     if (!touches || bodies.pairs(X).empty()) continue;
@@ -180,7 +169,7 @@ TEST(BodyPair, IsRightForAMatrixThatIsNotQuiteARotation) {
   const TriMesh fixed = test::socket({0, 0, 0}, 25, 28, 3), mobile = sphere({0, 0, 0}, 24.9999, 3);
   const BodyPair bodies(fixed, mobile);
   for (const double scale : {1 - 1e-5, 1 + 1e-5, 1 + 1e-3, 1 + 1e-2}) {
-    Pose X = turned(50, {3, 2, 1});
+    Pose X = test::rotated(50, {3, 2, 1});
     X.linear() *= scale;
     EXPECT_EQ(bodies.pairs(X), each_with_each(fixed, posed(X, mobile))) << scale;
   }

@@ -1,12 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <numbers>
-#include <string>
-
 #include "condyle/pressure.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Cartilages of a real hip under what a pelvis puts on it while standing: rays at their rims begin and cease to meet as the hip
 /// flexes, so forces and energies jump.
@@ -23,8 +16,7 @@ struct Way {
 class HipBalance : public testing::TestWithParam<Way> {};
 
 TEST_P(HipBalance, CarriesTheLoadAtEveryAngle) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "the shared data is missing";
+  FOUND_OR_SKIP(data, test::shared_data());
   const auto layer = [&](const char* name) {
     return Mesh(test::read_ply(*data / "hip_libhip_m1_left" / name));
   };
@@ -67,8 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, HipBalance,
                          name_of_kind);
 
 TEST(RefusedLoad, LeavesNoMoreOnBonesThanWasApplied) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "the shared data is missing";
+  FOUND_OR_SKIP(data, test::shared_data());
   const ElasticLayer soft{12, 0.42, 1.5};
   const ElasticContact contact(Mesh(test::read_ply(*data / "hip_vhf_right" / "hip_bone.ply")),
                                Mesh(test::read_ply(*data / "hip_vhf_right" / "femur.ply")),

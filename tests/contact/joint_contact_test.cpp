@@ -1,14 +1,9 @@
 #include "condyle/contact.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "condyle/error.hpp"
 #include "contact/brute_pairs.hpp"
 #include "core/thread_limit.hpp"
-#include "support/brute_force.hpp"
-#include "support/test_meshes.hpp"
+#include "support/random_pose.hpp"
+#include "support/test.hpp"
 
 namespace condyle::contact {
 namespace {
@@ -16,20 +11,13 @@ namespace {
 using test::box;
 using test::sphere;
 
-Pose rotation(double degrees, const Vec3& axis, const Vec3& shift = Vec3::Zero()) {
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(Angle::degrees(degrees).radians(), axis.normalized()).toRotationMatrix();
-  X.translation() = shift;
-  return X;
-}
-
 TEST(JointContact, PairsAreThoseOfRationalArithmeticOnBothMapsInEveryPose) {
   const TriMesh fixed = test::socket({0.05, 0.1, 0}, 1.0, 1.3, 1), mobile = test::torus(1.1, 0.15, 7, 5);
   std::size_t found = 0, free_poses = 0;
   for (const auto map : {radial::DirectionMapKind::cube, radial::DirectionMapKind::cartesian}) {
     const JointContact joint(fixed, mobile, {map, 8});
     for (int i = 0; i < 12; ++i) {
-      const Pose X = rotation(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
+      const Pose X = test::rotated(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
       const auto pairs = joint.pairs(X);
       EXPECT_EQ(pairs, test::brute_pairs(fixed, posed(X, mobile)));
       found += pairs.size();
@@ -54,7 +42,7 @@ TEST(JointContact, CoplanarFacesThatTouchAreInContact) {
                        PointState::inside),
             0);
   // One rounding away they are free.
-  EXPECT_FALSE(joint.radial(rotation(0, {0, 0, 1}, {-0x1p-52, 0, 0})).in_contact);
+  EXPECT_FALSE(joint.radial(test::rotated(0, {0, 0, 1}, {-0x1p-52, 0, 0})).in_contact);
 }
 
 TEST(JointContact, ABodyWhollyInsideTheOtherIsInContact) {
@@ -115,7 +103,7 @@ TEST(JointContact, AMobileTriangleThroughTheCentreIsTestedAgainstAll) {
   // directions.
   const TriMesh fixed = sphere({3, 0, 0}, 1, 2), mobile = box({-1, -1, -1}, {1, 1, 1});
   const JointContact joint(fixed, mobile);
-  const Pose X = rotation(0, {0, 0, 1}, {1, 0, 0});
+  const Pose X = test::rotated(0, {0, 0, 1}, {1, 0, 0});
   EXPECT_EQ(joint.pairs(X), test::brute_pairs(fixed, posed(X, mobile)));
   EXPECT_FALSE(joint.pairs(X).empty());
 }
@@ -125,11 +113,11 @@ TEST(JointContact, OneThreadAndManyGiveTheSamePairs) {
   std::vector<TrianglePair> one, many;
   {
     const core::ThreadLimit single(1);
-    one = joint.pairs(rotation(20, {1, 1, 0}));
+    one = joint.pairs(test::rotated(20, {1, 1, 0}));
   }
   {
     const core::ThreadLimit eight(8);
-    many = joint.pairs(rotation(20, {1, 1, 0}));
+    many = joint.pairs(test::rotated(20, {1, 1, 0}));
   }
   EXPECT_EQ(one, many);
   EXPECT_FALSE(one.empty());

@@ -1,18 +1,11 @@
 #include "contact/overlap_sampler.hpp"
 
-#include <gtest/gtest.h>
-
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Rays of closed targets: those that begin outside are left out if a radial table finds them.
 
 namespace condyle::contact {
 namespace {
-
-TriMesh moved(TriMesh mesh, const Vec3& by) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] + by);
-  return mesh;
-}
 
 OverlapSampler::Results found_at(const OverlapSampler& sampler, const Pose& X_CT) {
   OverlapSampler::Results found;
@@ -34,7 +27,7 @@ TEST_P(OfAClosedTarget, RaysFromOutsideAreNotCastAndNothingIsMissed) {
   const Vec3 off(0, 0, 24.999);
   Pose X_off = X_CT;
   X_off.translation() += X_CT.linear() * off - off;
-  const OverlapSampler about_surface(moved(ball, -off), moved(cup, -off), options);
+  const OverlapSampler about_surface(test::shifted_by(ball, -off), test::shifted_by(cup, -off), options);
 
   const auto some = found_at(about_centre, X_CT), all = found_at(about_surface, X_off);
   EXPECT_LT(some.rays, all.rays - 500);

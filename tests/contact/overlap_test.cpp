@@ -1,21 +1,10 @@
 #include "contact/overlap.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "condyle/contact_measures.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "mesh/winding_number.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Volumes and areas of overlaps, thin ones above all, against closed forms, against values that exact integration gave in another
 /// program, along two directions that agreed to 1e-12, and against columns and subdivision here.
@@ -382,8 +371,7 @@ TEST(Overlap, OfABallOnAPlateHasTheAreasOfTheBallsSection) {
 
 /// Values of an exact integration in another program, and areas by a count.
 TEST(Overlap, OfARealHipIsWhatExactIntegrationGives) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const contact::JointContact joint(*hip);
   const auto at = [&](double flexion, double adduction, double internal_rotation) {
     return pose_at({.side = Side::right},
@@ -427,8 +415,7 @@ TEST(Overlap, OfARealHipIsWhatExactIntegrationGives) {
 
 /// Cartilages of a left hip that were made to touch: a thin overlap over large sheets.
 TEST(Overlap, OfTouchingCartilagesIsWhatColumnsGive) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, shared_data());
   const TriMesh fixed = read_ply(*data / "hip_libhip_m1_left/acetabular_cartilage_nogap.ply"),
                 mobile = read_ply(*data / "hip_libhip_m1_left/femur_cartilage_nogap.ply");
   for (const auto& [up, about] :

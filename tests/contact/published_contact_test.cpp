@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <utility>
-
 #include "condyle/pressure.hpp"
 #include "support/knee.hpp"
+#include "support/test.hpp"
 
 /// A simulated flexion of a knee, and the contact that OpenSim-JAM publishes for it.
 
@@ -40,8 +36,7 @@ struct PublishedContact : testing::TestWithParam<const char*> {
 
 /// All 17 numbers of all frames: within half a printed digit and 2e-5.
 TEST_P(PublishedContact, FollowsFromThePublishedCoordinates) {
-  const auto knee = test::shared_knee();
-  if (!knee) GTEST_SKIP() << "the shared knee is missing";
+  FOUND_OR_SKIP(knee, test::shared_knee());
   const ElasticContact surfaces = joint(*knee);
   ASSERT_EQ(knee->states.rows.size(), 251u);
   for (std::size_t frame = 0; frame < 251; ++frame) {
@@ -73,8 +68,7 @@ TEST_P(PublishedContact, FollowsFromThePublishedCoordinates) {
 
 /// From half a millimetre off in any direction the balance is the published translation to 1e-5 mm in each coordinate.
 TEST(PublishedBalance, IsFoundFromHalfAMillimetreOff) {
-  const auto knee = test::shared_knee();
-  if (!knee) GTEST_SKIP() << "the shared knee is missing";
+  FOUND_OR_SKIP(knee, test::shared_knee());
   const ElasticContact surfaces(knee->femur_cartilage, knee->tibia_cartilage,
                                 {.casting = Casting::mobile,
                                  .rays = {.rule = FaceRule::face_centre},

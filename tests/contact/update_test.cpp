@@ -1,16 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <numeric>
-#include <random>
-#include <string>
 #include <thread>
 
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/pressure.hpp"
 #include "contact/body_pair.hpp"
 #include "contact/brute_pairs.hpp"
@@ -18,7 +10,7 @@
 #include "mesh/vertex_triangles.hpp"
 #include "support/cup.hpp"
 #include "support/random_pose.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Contacts that follow deforming bodies answer as those made anew.
 
@@ -225,15 +217,6 @@ TEST(Update, ThicknessesStayWithTheirVertices) {
   EXPECT_GT(found.on_mobile.force_n.norm(), 0);
 }
 
-std::string refusal(const auto& update) {
-  try {
-    update();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Update, IsRefusedWhereItCannotBeTakenAndChangesNothing) {
   const TriMesh fixed = test::socket(Vec3::Zero(), 10, 13, 2), mobile = test::sphere({0, -0.2, 0}, 9.9, 2);
   JointContact contact(fixed, mobile);
@@ -246,8 +229,8 @@ TEST(Update, IsRefusedWhereItCannotBeTakenAndChangesNothing) {
   const std::vector<Index> beyond = {3, 9999}, twice = {3, 4, 3}, one = {3};
   const Points two(2), three(3);
   const auto both = [&](const auto& update) {
-    const std::string of_joint = refusal([&] { update(contact); });
-    EXPECT_EQ(refusal([&] { update(elastic); }), of_joint);
+    const std::string of_joint = test::complaint_of([&] { update(contact); });
+    EXPECT_EQ(test::complaint_of([&] { update(elastic); }), of_joint);
     return of_joint;
   };
   EXPECT_EQ(both([&](auto& c) { c.update(BodyRole::mobile, fewer); }), "an update of 66 vertices gives 65");
@@ -263,8 +246,9 @@ TEST(Update, IsRefusedWhereItCannotBeTakenAndChangesNothing) {
   Points through_centre = mobile.vertices;
   for (double& x : through_centre.x) x += 9.9;
   for (double& y : through_centre.y) y += 0.2;
-  EXPECT_NE(refusal([&] { contact.update(BodyRole::mobile, through_centre); }).find("mobile body: "),
-            std::string::npos);
+  EXPECT_NE(
+      test::complaint_of([&] { contact.update(BodyRole::mobile, through_centre); }).find("mobile body: "),
+      std::string::npos);
   const Contact after = contact.at(Pose::Identity());
   EXPECT_EQ(after.mobile_in_fixed, before.mobile_in_fixed);
   EXPECT_EQ(after.fixed_in_mobile, before.fixed_in_mobile);

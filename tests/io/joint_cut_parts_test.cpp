@@ -1,12 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -16,9 +8,7 @@
 #include "condyle/sample/hip.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "support/joint_text.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Parts of a body that planes cut from one of its meshes: `cut` of [[part]].
 
@@ -339,8 +329,7 @@ TEST_F(CutParts, HaveTheBandsOfTheWholeBone) {
 
 /// A real hip bone, cut 10 to 25 mm around its socket.
 TEST(CutRealParts, HaveTheLimitsOfTheWholeBoneAndOfMeshesTurnedByHand) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "CONDYLE_DATA is not set";
+  FOUND_OR_SKIP(data, test::shared_data());
   const test::TemporaryFolder folder;
   const auto path = *data / "hip_vhf_right/hip_bone.ply";
   const std::string fixed = test::mesh_key(path), mobile = test::mesh_key(*data / "hip_vhf_right/femur.ply");

@@ -1,10 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <numbers>
-
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
@@ -14,9 +8,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "kinematics/posed_parts.hpp"
 #include "support/joint_text.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Parts of a body with a pose of their own: [[part]] of a joint file.
 
@@ -292,8 +284,7 @@ TEST_P(PosedParts, WidenBandsByTheirStandardDeviations) {
 
 /// docs/mathematics: pelvic tilt and femoral version of the VHF hip.
 TEST(PosedBones, OfARealHipTurnItsLimitsExactly) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "CONDYLE_DATA is not set";
+  FOUND_OR_SKIP(data, test::shared_data());
   const test::TemporaryFolder folder;
   const auto path = folder.file(
       "vhf.toml", test::joint_text(

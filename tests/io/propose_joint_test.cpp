@@ -1,14 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-
-#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "support/joint_text.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Joint files proposed for real hips in the frames and units that meshes come in, and for what is no hip.
 
@@ -43,8 +36,7 @@ const Hip hips[] = {{"hip_vhf_right", "hip_bone.ply", "femur.ply", Side::right},
 class ProposedHip : public testing::TestWithParam<Hip> {
  protected:
   void SetUp() override {
-    const auto data = shared_data();
-    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+    FOUND_OR_SKIP(data, shared_data());
     fixed_ = read_ply(*data / GetParam().folder / GetParam().fixed);
     mobile_ = read_ply(*data / GetParam().folder / GetParam().mobile);
   }
@@ -92,8 +84,7 @@ TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
 
 /// Bones as finely meshed as they come, in the axes and the unit of an image.
 TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, shared_data());
   const TemporaryFolder folder;
   const TriMesh fixed = read_ply(*data / "hip_libhip_m1_left/hip_bone.ply"),
                 mobile = read_ply(*data / "hip_libhip_m1_left/femur.ply");

@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "support/complaint.hpp"
 #include "support/drawn_bones.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Joint files proposed for knees, ankles, elbows and shoulders: real and drawn ones, in the frames and units meshes come in.
 
@@ -66,8 +61,7 @@ Pose axes_of(const Vec3& x, const Vec3& y, const Vec3& z) {
 
 /// The shared knee's model turns about Z through the origin with Y along the femur.
 TEST_F(ProposedOther, KneeOfRealBonesHasTheFrameOfItsModelInAllAxesUnitsAndMirrored) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, shared_data());
   const TriMesh femur = read_ply(*data / "knee_lenhart2015_right/femur_bone.ply"),
                 tibia = read_ply(*data / "knee_lenhart2015_right/tibia_bone.ply");
   const Pose lps = axes_of(-Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitX());

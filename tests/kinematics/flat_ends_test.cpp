@@ -1,19 +1,10 @@
 #include "kinematics/flat_ends.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
-#include "condyle/angle.hpp"
 #include "condyle/bearing.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"
 #include "mesh/cut_mesh.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// A closed bone that ends in a plane near the joint is found wherever it was cut, and nothing else is.
 
@@ -154,8 +145,7 @@ TEST(FlatEnds, PlanesOfImplantsAndOfBodiesOfSeveralBonesMayBeMeant) {
 }
 
 TEST(FlatEnds, RealBonesHaveNoneNearTheJointUntilTheyAreCut) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   for (const char* name : {"hip_vhf_right", "hip_libhip_m1_left"}) {
     const TriMesh hip_bone = test::read_ply(*data / name / "hip_bone.ply"),
                   real = test::read_ply(*data / name / "femur.ply");

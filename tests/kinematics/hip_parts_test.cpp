@@ -1,13 +1,10 @@
 #include "kinematics/hip_parts.hpp"
 
-#include <gtest/gtest.h>
-
 #include "condyle/make_joint.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/triangle_tree.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -52,8 +49,7 @@ TEST(HipParts, ASocketIsKeptByItsHead) {
 
 /// The head that the centre of a joint was fitted to is kept with the placed mesh: it is what a search there finds, bit by bit.
 TEST(HipParts, TheHeadThatTheCentreWasFittedToIsTheOneThatASearchFinds) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   for (const auto& [name, side] :
        {std::pair{"hip_vhf_right", Side::right}, {"hip_libhip_m1_left", Side::left}}) {
     JointDescription hip{.name = name, .kind = JointKind::ball, .side = side};

@@ -1,16 +1,9 @@
 #include "kinematics/knee_anatomy.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <span>
 
-#include "support/complaint.hpp"
 #include "support/drawn_bones.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// The frames of drawn knees with known axes, and of real ones.
 
@@ -98,8 +91,7 @@ TEST(KneeAnatomy, OfOtherBodiesIsEmptyWithTheReason) {
 
 /// As where each mesh lies in a frame of its own: what is nearest the tibia is the femur's head.
 TEST(KneeAnatomy, OfMeshesInUnrelatedFramesTakesNoHeadForCondyles) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh femur = test::read_ply(*data / "hip_vhf_right/femur.ply");
   for (const TriMesh& tibia :
        {test::read_ply(*data / "knee_lenhart2015_right/tibia_bone.ply"),
@@ -120,8 +112,7 @@ TEST(KneeAnatomy, OfMeshesInUnrelatedFramesTakesNoHeadForCondyles) {
 class SharedKnee : public testing::Test {
  protected:
   void SetUp() override {
-    const auto data = test::shared_data();
-    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+    FOUND_OR_SKIP(data, test::shared_data());
     femur_ = test::read_ply(*data / "knee_lenhart2015_right/femur_bone.ply");
     tibia_ = test::read_ply(*data / "knee_lenhart2015_right/tibia_bone.ply");
   }
@@ -160,8 +151,7 @@ TriMesh cut(const TriMesh& mesh, const Vec3& normal, double offset) {
 /// Both real femora, whole and cut at several heights by oblique planes, smooth and rough: what is said agrees with what the
 /// whole smooth bone shows. CONDYLE_LONG_TESTS=1 makes 480 scans.
 TEST(KneeAnatomy, OfCutAndRoughFemoraAgreesWithTheWholeOnes) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   struct Knee {
     TriMesh femur, tibia;
   };
@@ -204,8 +194,7 @@ TEST(KneeAnatomy, OfCutAndRoughFemoraAgreesWithTheWholeOnes) {
 
 /// The Visible Human's femur is in the scanner's axes, leg straight; its own landmarks lie on both condyles.
 TEST(KneeAnatomy, OfAWholeFemurGoesByItsHead) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh femur = test::read_ply(*data / "hip_vhf_right/femur.ply");
   const TriMesh below = test::box({-50, -440, -35}, {0, -405, 35});
   for (const bool is_left : {false, true}) {

@@ -1,15 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "condyle/fit.hpp"
 #include "kinematics/hip_anatomy.hpp"
-#include "support/shared_data.hpp"
 #include "support/stairs.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "support/voxel_masks.hpp"
 #include "support/voxelised.hpp"
 
@@ -117,8 +109,7 @@ TEST(Socket, DoesNotDependOnTheOrderOfItsVertices) {
 
 /// Several spheres hold nearly the same area of an uneven socket: which of them is taken may not hang on the grid.
 TEST(Socket, OfAnUnevenHipIsTheSameOnItsLabelMaps) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const Sphere head{Vec3::Zero(), 23.85};
   TriMesh bone = test::read_ply(*data / "hip_vhf_right/hip_bone.ply");
   for (std::size_t v = 0; v < bone.vertices.size(); ++v) {

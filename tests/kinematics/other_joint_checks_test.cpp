@@ -1,16 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <functional>
-#include <numbers>
-
 #include "condyle/joint_checks.hpp"
-#include "support/complaint.hpp"
 #include "support/parametric_shoulder.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Wrong set-ups of shoulders, knees, ankles and elbows of parts are each answered with their note, right ones with none.
 
@@ -227,8 +217,7 @@ Codes of_shape(const Joint& joint) {
 }
 
 TEST(LongBoneChecks, KnowAWholeFemurByItsShaft) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh femur = read_ply(*data / "hip_vhf_right" / "femur.ply");  // its head at the origin
   const double lowest = std::ranges::min(femur.vertices.y);
   const Body tibia = of_parts("tibia", {box({-35, -60, -35}, {35, -30, 35})});
@@ -245,8 +234,7 @@ TEST(LongBoneChecks, KnowAWholeFemurByItsShaft) {
 }
 
 TEST(LongBoneChecks, KnowTheSideOfAWholeFemurByItsHead) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh femur = read_ply(*data / "hip_vhf_right" / "femur.ply");
   const double lowest = std::ranges::min(femur.vertices.y);
   const TriMesh bones[] = {shifted_by(femur, {0, -lowest - 25, 0}), box({-35, -60, -35}, {35, -30, 35})};
@@ -274,8 +262,7 @@ TEST(LongBoneChecks, KnowTheSideOfAWholeFemurByItsHead) {
 }
 
 TEST(LongBoneChecks, SayNothingOfTheSharedKnee) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const auto mesh = [&](const char* name) { return read_ply(*data / "knee_lenhart2015_right" / name); };
   const std::array femurs{mesh("femur_cartilage.ply"), mesh("femur_bone.ply")};
   const std::array others{mesh("tibia_cartilage.ply"), mesh("patella_cartilage.ply"), mesh("tibia_bone.ply"),

@@ -1,14 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-
-#include "condyle/error.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Where a femur lies when its angles are zero is read from its condyles, and can be made neutral by them.
 
@@ -165,8 +157,7 @@ TEST(ZeroPose, OnlyAHipHasOneFromItsAnatomy) {
 }
 
 TEST(ZeroPose, ARealFemurTurnedInItsScanIsNotedAndMadeNeutral) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh hip_bone = test::read_ply(*data / "hip_vhf_right/hip_bone.ply"),
                 real = test::read_ply(*data / "hip_vhf_right/femur.ply");
   const auto made = [&](const JointAngles& turned, ZeroFrom from) {

@@ -1,13 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <numbers>
-#include <random>
 
-#include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
 #include "core/thread_limit.hpp"
@@ -16,6 +9,7 @@
 #include "measure/displaced_by_hand.hpp"
 #include "measure/measure_bones.hpp"
 #include "support/real_hip.hpp"
+#include "support/test.hpp"
 
 /// Bands of measures: in closed form, the same on any number of threads, and of as many joints as they say.
 
@@ -185,8 +179,7 @@ void expect_nine_tenths_inside(const Joint& hip, std::size_t samples, int joints
 TEST(MeasureBands, NineTenthsOfJointsDisplacedAndMeasuredByHandLieInsideThem) {
   const bool is_long = std::getenv("CONDYLE_LONG_TESTS");
   expect_nine_tenths_inside(some_hip(), 200, is_long ? 1000 : 60);
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   expect_nine_tenths_inside(*hip, 200, is_long ? 1000 : 60);
 }
 

@@ -1,19 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "condyle/bearing.hpp"
-#include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
 #include "measure/analytic_hip.hpp"
 #include "mesh/cut_mesh.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Parts missing from the meshes are not measured, with a reason; measures that do not depend on them are unchanged.
 
@@ -211,8 +202,7 @@ TEST(MissingParts, OtherJointsAndWildRequestsAreRefused) {
 }
 
 TEST(MissingParts, CondylesThatAreTwistedOnTheShaftTwistFemoralVersion) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const FemurMeasures given = measure_hip(*hip).femur;
   ASSERT_TRUE(given.condyles);
   const Vec3 head = given.neck->head.centre, down = (given.condyles->middle - head).normalized();

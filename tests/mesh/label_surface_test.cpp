@@ -1,20 +1,12 @@
 #include "condyle/label_surface.hpp"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/winding_number.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 #include "support/voxel_masks.hpp"
 
 namespace condyle {
@@ -424,8 +416,7 @@ TEST(TouchingVoxels, AreCountedByFaces) {
 
 /// A real femur as voxels of 1.5 mm, cut by its image: the surface is that of the mesh within a voxel.
 TEST(LabelSurface, OfARealFemurIsNearItsMesh) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh femur = read_ply(*data / "hip_vhf_right" / "femur.ply");
   const BoundingBox bounds = inspect(femur).bounds;
   const double h = 1.5;

@@ -1,17 +1,8 @@
 #include "mesh/self_crossings.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "condyle/inspect.hpp"
 #include "support/brute_force.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::mesh {
 namespace {
@@ -149,8 +140,7 @@ TEST(SelfCrossings, AreThoseOfExactBruteForce) {
 }
 
 TEST(SelfCrossings, OfBonesWithEngravedLettersAreReported) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh femur = test::read_ply(*data / "hip_libhip_m1_left/femur.ply");
   // 29 with the pairs that share a vertex, by CGAL (README of the data).
   EXPECT_EQ(inspect(femur).self_crossings.count, 15u);

@@ -1,18 +1,8 @@
 #include "mesh/winding_number.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "support/brute_force.hpp"
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {
@@ -158,8 +148,7 @@ TEST(WindingNumber, AnOpenMeshIsRefusedNamingAnEdge) {
 }
 
 TEST(WindingNumber, OfARealHipBoneAgreesWithRationalArithmetic) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh bone = test::read_ply(*data / "hip_libhip_m1_left/coarse/hip_bone_2442.ply");
   const TriMesh femur = test::read_ply(*data / "hip_libhip_m1_left/coarse/femur_1542.ply");
   Points points;

@@ -1,16 +1,10 @@
 #include "condyle/bearing.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "condyle/error.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Bearing contact is distinguished from impingement, and only impingement ends motions.
 
@@ -315,18 +309,12 @@ const HipTable hips[] = {
        {{0, 0, 1}, {120.78, 20.96, 39.12, 30.29, 109.98, 20.84, 67.60, 29.19, 46.05, 71.95, 32.77, 40.19}}}}},
 };
 
-TriMesh moved(TriMesh mesh, const Vec3& by) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] + by);
-  return mesh;
-}
-
 class DisplacedCentre : public testing::TestWithParam<HipTable> {};
 INSTANTIATE_TEST_SUITE_P(SharedData, DisplacedCentre, testing::ValuesIn(hips),
                          [](const auto& hip) { return hip.param.name; });
 
 TEST_P(DisplacedCentre, ByAMillimetreMovesLimitsByDegreesNotByTens) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const HipTable& hip = GetParam();
   const TriMesh fixed = read_ply(*data / hip.folder / "hip_bone.ply"),
                 mobile = read_ply(*data / hip.folder / "femur.ply");
@@ -337,8 +325,8 @@ TEST_P(DisplacedCentre, ByAMillimetreMovesLimitsByDegreesNotByTens) {
     const Joint joint{hip.name,
                       JointKind::ball,
                       hip.side,
-                      {"hip bone", moved(fixed, -row.centre)},
-                      {"femur", moved(mobile, -row.centre)}};
+                      {"hip bone", test::shifted_by(fixed, -row.centre)},
+                      {"femur", test::shifted_by(mobile, -row.centre)}};
     BearingOptions bearing{.margin_mm = 2};
     if (hip.fits == Fits::once && first) {
       bearing.surface = first;
@@ -361,8 +349,7 @@ TEST_P(DisplacedCentre, ByAMillimetreMovesLimitsByDegreesNotByTens) {
 }
 
 TEST(BearingCartilage, BesideItsBoneLeavesLimitsToTheBones) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const auto folder = *data / "hip_libhip_m1_left";
   const TriMesh hip_bone = read_ply(folder / "hip_bone.ply"), femur = read_ply(folder / "femur.ply"),
                 acetabular = read_ply(folder / "acetabular_cartilage_gap.ply"),
@@ -371,10 +358,11 @@ TEST(BearingCartilage, BesideItsBoneLeavesLimitsToTheBones) {
   for (const std::size_t row : {0u, 4u}) {
     const Vec3 by = -bones.rows[row].centre;
     SCOPED_TRACE(testing::Message() << "moved by " << by.transpose());
-    const Joint joint{
-        "four meshes", JointKind::ball, Side::left,
-        with_cartilage("hip bone", moved(hip_bone, by), moved(acetabular, by), PartContact::ends),
-        with_cartilage("femur", moved(femur, by), moved(femoral, by), PartContact::bearing)};
+    const Joint joint{"four meshes", JointKind::ball, Side::left,
+                      with_cartilage("hip bone", test::shifted_by(hip_bone, by),
+                                     test::shifted_by(acetabular, by), PartContact::ends),
+                      with_cartilage("femur", test::shifted_by(femur, by), test::shifted_by(femoral, by),
+                                     PartContact::bearing)};
     const RangeOfMotion range(joint);
     for (std::size_t i = 0; i < hip_motions().size(); ++i) {
       const MotionLimit limit = range.limit(hip_motions()[i]);

@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <random>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "core/parallel.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// All free intervals of a joint angle: in closed form, and against exact tests at every step.
 
@@ -198,8 +191,7 @@ Thoroughness thoroughness() {
 }
 
 TEST(FreeAngles, OfARealHipAreThoseOfExactTestsAtEveryStep) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const Seen seen =
       expect_same_as_steps(*hip, BearingRule::leave_out, JointAngle::internal_rotation, thoroughness(), 7);
   EXPECT_GT(seen.islands, 0u);

@@ -1,16 +1,11 @@
 #include "condyle/limit_band.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
-
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
 #include "motion/rom/displacement.hpp"
 #include "support/real_hip.hpp"
+#include "support/test.hpp"
 
 /// Bands of limits: in closed form, the same on any number of threads, and those of an independent run on real hips.
 
@@ -196,8 +191,7 @@ constexpr std::array<ExpectedBand, 12> vhf_bands{{{127.0, 133.7, 138.0, 10.1, 7.
                                                   {85.8, 120.0, 120.0, 0.0, 30.7, 0.0}}};
 
 TEST(RealHipBands, AgreeWithAnIndependentRun) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const Joint& joint = *hip;
   const auto motions = hip_motions();
   // The quantiles of that run are of centre and axes: their widths are less than the surface alone would make them.

@@ -1,16 +1,10 @@
 #include "condyle/motion_map.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Maps against single limits, volumes against integrals.
 
@@ -77,8 +71,7 @@ class ImpingesAt {
 
 /// Most points of this map that are in contact at zero internal rotation are free a few degrees away.
 TEST(MotionMap, OfARealHipHasWhatIsFreeBesideAStartInContactAndIslands) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const Joint& joint = *hip;
   const MapGrid grid{.row = {JointAngle::adduction, -40, 30, 10},
                      .column = {JointAngle::flexion, -20, 120, 10},

@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/range_of_motion.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Every built-in motion of real real_hips, against the exact sets of intersecting triangles.
 
@@ -29,8 +24,7 @@ const HipFiles real_hips[] = {
 class RealHipLimits : public testing::TestWithParam<HipFiles> {
  protected:
   void SetUp() override {
-    const auto data = test::shared_data();
-    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+    FOUND_OR_SKIP(data, test::shared_data());
     joint_ = {GetParam().name,
               JointKind::ball,
               GetParam().side,
@@ -108,8 +102,7 @@ TEST_P(RealHipLimits, FindTheNeckWhereAnatomyHasIt) {
 /// Segmented without care for contact: 47 pairs of triangles meet in the reference pose (the data's own table),
 /// and the hip bone is open.
 TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const Joint joint{"gait2392",
                     JointKind::ball,
                     Side::right,
@@ -136,8 +129,7 @@ TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
 
 /// All of its contact in the reference pose is bearing contact.
 TEST(OverlappingRealHip, IsAnsweredWhereOnlyBearingSurfacesOverlap) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const RangeOfMotion range({"gait2392",
                              JointKind::ball,
                              Side::right,

@@ -1,9 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
 #include "oracle/cgal_oracle.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Limits on real hips, certified by CGAL's exact triangle tests on the turned mesh: free just before,
 /// touching just after.
@@ -47,8 +45,7 @@ struct HipFiles {
 class FirstContactOfRealHips : public testing::TestWithParam<HipFiles> {
  protected:
   void SetUp() override {
-    const auto data = test::shared_data();
-    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA to the folder of real joints";
+    FOUND_OR_SKIP(data, test::shared_data());
     fixed = test::read_ply(*data / GetParam().fixed);
     mobile = test::in_spatial_order(test::read_ply(*data / GetParam().mobile));
   }

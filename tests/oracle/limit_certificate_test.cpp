@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "condyle/range_of_motion.hpp"
 #include "oracle/cgal_oracle.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Limits of the built-in motions, certified by CGAL's exact triangle tests, which share no code with the
 /// library: free at 200 angles before the limit and a microdegree before it, in contact a microdegree after.
@@ -36,8 +34,7 @@ INSTANTIATE_TEST_SUITE_P(SharedData, LimitCertificate,
                          });
 
 TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const auto& [files, number] = GetParam();
   const Joint joint{files.name,
                     JointKind::ball,

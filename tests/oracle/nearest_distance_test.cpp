@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "condyle/contact_measures.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/hip.hpp"
 #include "oracle/cgal_oracle.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 namespace condyle::test {
 namespace {
@@ -43,8 +39,7 @@ TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
 
 /// Checks real bones, posed, and surfaces whose edges are nearer to each other than any vertex is to a triangle.
 TEST(NearestDistance, OfTwoSurfacesIsWhatCgalFinds) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, shared_data());
   const TriMesh hip_bone = read_ply(*data / "hip_vhf_right/hip_bone.ply"),
                 femur = read_ply(*data / "hip_vhf_right/femur.ply");
   const contact::JointContact joint(hip_bone, femur);

@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <map>
-#include <memory>
-#include <optional>
-
 #include "condyle/angle.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/radial.hpp"
@@ -12,7 +6,7 @@
 #include "oracle/cgal_oracle.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/brute_force.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Whole answers on real joints against CGAL with exact predicates: equal as sets.
 
@@ -286,8 +280,7 @@ const NeutralRow neutral_rows[] = {
 };
 
 TEST(ContactOfRealHips, IsInTheNeutralPoseThatOfThePublishedTables) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   for (const auto& row : neutral_rows) {
     SCOPED_TRACE(row.moving);
     const TriMesh fixed = test::read_ply(*data / (std::string(row.fixed) + ".ply"));

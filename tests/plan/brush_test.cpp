@@ -1,21 +1,11 @@
 #include "condyle/brush.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <string>
-#include <utility>
-
-#include "condyle/error.hpp"
 #include "condyle/sample/hip.hpp"
 #include "measure/analytic_hip.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_distance.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// Strokes of a brush against closed forms, and what they must leave as it was.
 
@@ -209,12 +199,7 @@ TEST(Brush, ACutGoesOnFromWhereItIs) {
 
 std::string refusal(const Body& bone, const plan::BrushStroke& stroke) {
   plan::Brush brush(bone);
-  try {
-    brush.stroke(stroke);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "taken";
+  return complaint_of<UsageError>([&] { brush.stroke(stroke); });
 }
 
 TEST(Brush, RefusesWhatIsNoStroke) {
@@ -292,8 +277,7 @@ TEST(BrushedJoint, TheBearingSurfaceStays) {
 }
 
 TEST(Brush, AHundredStrokesLeaveARealFemurSound) {
-  const auto joint = hip_vhf_right();
-  if (!joint) GTEST_SKIP() << "the shared data is missing";
+  FOUND_OR_SKIP(joint, hip_vhf_right());
   for (const Body* bone : {&joint->mobile, &joint->fixed}) {
     std::mt19937 random(5);
     plan::Brush brush(*bone);

@@ -1,20 +1,8 @@
 #include "condyle/resection.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <string>
-#include <utility>
 
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/sample/hip.hpp"
 #include "measure/analytic_hip.hpp"
 #include "mesh/self_crossings.hpp"
@@ -23,6 +11,7 @@
 #include "motion/rom/displacement.hpp"
 #include "plan/sweep.hpp"
 #include "support/real_hip.hpp"
+#include "support/test.hpp"
 
 /// Bone that must go, against closed forms, sampled poses and the exact limits: docs/mathematics/12-resection.md.
 
@@ -184,9 +173,7 @@ TriMesh ball_at(const Vec3& centre, double radius) {
   for (int i = 0; i <= 180; i += 2)
     profile.push_back({-radius * std::cos(i * degree), radius * std::sin(i * degree)});
   profile.front().beside = profile.back().beside = 0;
-  TriMesh ball = revolved(Vec3::UnitZ(), profile, 180);
-  for (std::size_t v = 0; v < ball.vertices.size(); ++v) ball.vertices.set(v, ball.vertices[v] + centre);
-  return ball;
+  return shifted_by(revolved(Vec3::UnitZ(), profile, 180), centre);
 }
 
 TriMesh block(const Vec3& low, const Vec3& high) {
@@ -559,13 +546,7 @@ TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
   auto [hip_bone, femur] = sample::sample_hip(parameters, sample::Scenario::one);
   const TriMesh cartilage = ball_at(Vec3::Zero(), parameters.head_radius_mm + 1);
   const std::size_t vertices = femur.vertices.size(), triangles = femur.triangles.size();
-  TriMesh both = femur;
-  for (std::size_t v = 0; v < cartilage.vertices.size(); ++v) both.vertices.push_back(cartilage.vertices[v]);
-  for (const auto& [a, b, c] : cartilage.triangles) {
-    const auto first = static_cast<Index>(vertices);
-    both.triangles.push_back({first + a, first + b, first + c});
-  }
-  Joint joint = hip_of(std::move(hip_bone), std::move(both));
+  Joint joint = hip_of(std::move(hip_bone), joined(femur, cartilage));
   joint.mobile.parts = {{"bone", 0, vertices, 0, triangles},
                         {"cartilage", vertices, cartilage.vertices.size(), triangles,
                          cartilage.triangles.size(), PartContact::bearing}};
@@ -586,9 +567,7 @@ TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
 Joint about(const Joint& joint, const Vec3& centre) {
   Joint moved = joint;
   for (Body Joint::*body : {&Joint::fixed, &Joint::mobile}) {
-    TriMesh mesh = (joint.*body).mesh;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] - centre);
-    (moved.*body).mesh = Mesh(std::move(mesh));
+    (moved.*body).mesh = Mesh(shifted_by((joint.*body).mesh, -centre));
     if ((moved.*body).head) (moved.*body).head->centre -= centre;
   }
   return moved;
@@ -703,8 +682,7 @@ struct GainCase {
 };
 
 TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   // Least volumes by voxels of 0.2 mm.
   for (const auto& [gain, least, deepest] : {GainCase{5, 34.8, 1.3}, {10, 150.1, 2.8}, {15, 352.6, 4.5}}) {
     const plan::Resection done =
@@ -743,8 +721,7 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
 
 // A globe on a cone: what flexion sweeps of the cone folds, whichever way it goes. The other directions, each as long, are not tried.
 TEST(Resection, ACutThatFoldsManyTrianglesIsRefusedAtOnce) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   constexpr double radius = 23.8, rows = 23;
   std::vector<ProfilePoint> profile{{-radius, 0}};
   for (int i = 1; i < rows; ++i)

@@ -1,17 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 #include <thread>
 
-#include "condyle/error.hpp"
 #include "condyle/radial.hpp"
 #include "mesh/subdivide.hpp"
 #include "radial/penetration_cases.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/parameter_names.hpp"
-#include "support/shared_data.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::radial {
 namespace {
@@ -188,8 +182,7 @@ TEST_P(PenetrationsOn, AFreeBallIsRejectedByTheBlock) {
 }
 
 TEST_P(PenetrationsOn, RealHipsAndCartilagesAtRestAnswerAlike) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no real joints: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const auto read = [&](const char* name) { return test::read_ply(*data / "hip_libhip_m1_left" / name); };
   std::vector<Pose> poses = some_poses(3, 2, 18);
   for (const double angle : {0.6, 1.2, 2.0}) poses.push_back(pose_of(angle, {0.1, -0.2, 1}, Vec3::Zero()));

@@ -1,17 +1,12 @@
 #include "condyle/radial.hpp"
 
-#include <gtest/gtest.h>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <limits>
-#include <random>
 
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "mesh/subdivide.hpp"
+#include "radial/penetration_cases.hpp"
 #include "support/brute_force.hpp"
-#include "support/parameter_names.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::radial {
 namespace {
@@ -35,15 +30,6 @@ INSTANTIATE_TEST_SUITE_P(BothMaps, RadialTableOnMap,
                          [](const auto& kind) {
                            return kind.param == DirectionMapKind::cube ? "cube" : "cartesian";
                          });
-
-Points points_at_random(std::size_t count, double reach, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-reach, reach);
-  Points points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.push_back({uniform(random), uniform(random), uniform(random)});
-  return points;
-}
 
 void expect_states_of_brute_force(const RadialTable& table, const Points& points) {
   const RadialResults hits = table.query(points);
@@ -113,10 +99,10 @@ TEST_P(RadialTableOnMap, ABallShiftedInItsSocketPenetratesWhereTheRaySphereRootS
 }
 
 TEST_P(RadialTableOnMap, StatesAreThoseOfRationalArithmetic) {
-  expect_states_of_brute_force(table(sphere({0.3, 0.2, -0.1}, 1, 2)), points_at_random(400, 1.5, 1));
-  expect_states_of_brute_force(table(test::torus(2, 0.5, 12, 8)), points_at_random(400, 2.6, 2));
+  expect_states_of_brute_force(table(sphere({0.3, 0.2, -0.1}, 1, 2)), test::random_points(400, 1.5, 1));
+  expect_states_of_brute_force(table(test::torus(2, 0.5, 12, 8)), test::random_points(400, 2.6, 2));
   expect_states_of_brute_force(table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 2)),
-                               points_at_random(400, 1.5, 3));
+                               test::random_points(400, 1.5, 3));
 }
 
 TEST_P(RadialTableOnMap, RaysThroughVerticesAndEdgesAreCountedOnce) {
@@ -166,7 +152,7 @@ TEST_P(RadialTableOnMap, PointsOnTheSilhouetteAreOnTheSurface) {
   points.push_back({1, 1, 1});
   const RadialResults hits = table(mesh).query(points);
   for (const PointState state : hits.state) EXPECT_EQ(state, PointState::on_surface);
-  expect_states_of_brute_force(table(mesh), points_at_random(300, 3.5, 4));
+  expect_states_of_brute_force(table(mesh), test::random_points(300, 3.5, 4));
 }
 
 TEST_P(RadialTableOnMap, SeveralSolidsAlongOneRayAreToldApart) {
@@ -191,7 +177,7 @@ TEST_P(RadialTableOnMap, SeveralSolidsAlongOneRayAreToldApart) {
   EXPECT_NEAR(at(6), -0.25 * along(6), 1e-14);
   EXPECT_EQ(at(7), infinity);
   EXPECT_EQ(hits.triangle[7], no_index);
-  expect_states_of_brute_force(table(mesh), points_at_random(300, 5.5, 5));
+  expect_states_of_brute_force(table(mesh), test::random_points(300, 5.5, 5));
 }
 
 TEST_P(RadialTableOnMap, ASolidThatHoldsTheCentreMeasuresGapsInwards) {
@@ -215,7 +201,7 @@ TEST_P(RadialTableOnMap, ASolidThatHoldsTheCentreMeasuresGapsInwards) {
 TEST_P(RadialTableOnMap, DepthsAreThoseOfAnIndependentRayInFiftyDigits) {
   using Fifty = boost::multiprecision::cpp_bin_float_50;
   const TriMesh mesh = sphere({0.4, -0.3, 0.2}, 1, 3);
-  const Points points = points_at_random(2000, 1.3, 7);
+  const Points points = test::random_points(2000, 1.3, 7);
   const RadialResults hits = table(mesh).query(points);
   EXPECT_LT(std::count(hits.triangle.begin(), hits.triangle.end(), no_index), 100);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -241,7 +227,7 @@ TEST_P(RadialTableOnMap, DepthsAreThoseOfAnIndependentRayInFiftyDigits) {
 
 TEST_P(RadialTableOnMap, TurningMeshAndPointsTogetherChangesNothingBeyondRounding) {
   TriMesh mesh = sphere({0.4, -0.3, 0.2}, 1, 3);
-  const Points points = points_at_random(2000, 1.3, 8);
+  const Points points = test::random_points(2000, 1.3, 8);
   Pose X = Pose::Identity();
   X.linear() = Eigen::AngleAxisd(0.7, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   const RadialResults still = table(mesh).query(points),
@@ -264,7 +250,7 @@ TEST_P(RadialTableOnMap, RefiningTheMeshWithoutMovingItsSurfaceChangesNoAnswer) 
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     mesh.vertices.set(i, (mesh.vertices[i] * 64).array().round() / 64);
   }
-  const Points points = points_at_random(2000, 1.3, 12);
+  const Points points = test::random_points(2000, 1.3, 12);
   const RadialResults coarse = table(mesh).query(points),
                       fine = table(mesh::subdivided(mesh::subdivided(mesh))).query(points);
   EXPECT_EQ(coarse.state, fine.state);
@@ -278,7 +264,7 @@ TEST_P(RadialTableOnMap, RefiningTheMeshWithoutMovingItsSurfaceChangesNoAnswer) 
 
 TEST_P(RadialTableOnMap, OneThreadAndManyGiveTheSameBytes) {
   const RadialTable solid = table(sphere({0.4, -0.3, 0.2}, 1, 4));
-  const Points points = points_at_random(20000, 1.3, 9);
+  const Points points = test::random_points(20000, 1.3, 9);
   RadialResults one, many;
   {
     const core::ThreadLimit single(1);
@@ -313,13 +299,13 @@ TEST_P(RadialTableOnMap, ACentreOnTheSurfaceIsRefusedByNameOfItsTriangle) {
 
 TEST_P(RadialTableOnMap, AMeshOfInvertedOrientationHasNegativeWindingAndNoInside) {
   const RadialResults hits =
-      table(flipped(sphere({0.1, 0.2, 0.3}, 1, 2))).query(points_at_random(200, 0.3, 10));
+      table(flipped(sphere({0.1, 0.2, 0.3}, 1, 2))).query(test::random_points(200, 0.3, 10));
   for (const int winding : hits.winding) EXPECT_EQ(winding, -1);
 }
 
 TEST(RadialTable, BothMapsGiveTheSameBytes) {
   const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3);
-  const Points points = points_at_random(3000, 1.5, 11);
+  const Points points = test::random_points(3000, 1.5, 11);
   EXPECT_EQ(RadialTable(mesh, {DirectionMapKind::cube, 24}).query(points),
             RadialTable(mesh, {DirectionMapKind::cartesian, 40}).query(points));
 }
@@ -331,7 +317,7 @@ TEST(RadialTable, WhatFloatsTellIsWhatExactArithmeticTells) {
     SCOPED_TRACE(scale);
     for (TriMesh mesh : {test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3), test::torus(0.8, 0.5, 30, 20)}) {
       for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices.set(i, scale * mesh.vertices[i]);
-      Points points = points_at_random(2000, 1.5 * scale, 13);
+      Points points = test::random_points(2000, 1.5 * scale, 13);
       // Rays through vertices and edges, or nearly, and points on the surface, or nearly.
       for (const Triangle& corners : mesh.triangles) {
         const Vec3 a = mesh.vertices[corners[0]], b = mesh.vertices[corners[1]],
@@ -354,7 +340,7 @@ TEST(RadialTable, WhatFloatsTellIsWhatExactArithmeticTells) {
 
 TEST_P(RadialTableOnMap, GapsAloneAreThoseOfQueries) {
   const RadialTable socket = table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3));
-  Points points = points_at_random(1000, 1.5, 12);
+  Points points = test::random_points(1000, 1.5, 12);
   points.push_back(Vec3::Zero());
   EXPECT_EQ(socket.radial_gaps(points), socket.query(points).radial_gap_mm);
   EXPECT_TRUE(socket.radial_gaps(Points()).empty());

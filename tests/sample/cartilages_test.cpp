@@ -1,17 +1,6 @@
 #include "condyle/sample/cartilages.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string_view>
-#include <vector>
-
 #include "condyle/contact.hpp"
-#include "condyle/error.hpp"
 #include "condyle/pose.hpp"
 #include "condyle/pressure.hpp"
 #include "core/thread_limit.hpp"
@@ -21,6 +10,7 @@
 #include "sample/projection.hpp"
 #include "sample/self_intersection.hpp"
 #include "sample/topology.hpp"
+#include "support/test.hpp"
 
 namespace condyle::sample {
 namespace {
@@ -38,19 +28,14 @@ const SampleCartilages& made(CartilageScenario scenario) {
   return one;
 }
 
-void expect_sound(const TriMesh& mesh, int genus) {
-  const auto found = test::topology(mesh);
-  EXPECT_TRUE(found.is_closed_and_consistent);
-  EXPECT_TRUE(found.has_manifold_vertices);
-  EXPECT_EQ(found.components, 1);
-  EXPECT_EQ(found.genus, genus);
-  EXPECT_GT(found.signed_volume, 0);
+void expect_sound_cartilage(const TriMesh& mesh, int genus) {
+  test::expect_sound(mesh, genus);
   EXPECT_FALSE(sample::first_self_intersection(mesh));
 }
 
 void expect_sound(const SampleCartilages& cartilages) {
-  expect_sound(cartilages.femoral, 0);
-  expect_sound(cartilages.acetabular, 1);
+  expect_sound_cartilage(cartilages.femoral, 0);
+  expect_sound_cartilage(cartilages.acetabular, 1);
 }
 
 TEST(SampleCartilages, HaveTheCountsOfThePapersTable2) {

@@ -1,13 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "condyle/sample/hip.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "sample/contour.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Sockets on surfaces of label maps, whose normals are rough and whose rims are round, and on hips with little of a socket.
 
@@ -113,8 +107,7 @@ class LabelMap {
 
 /// Values for two hips, with spheres fitted to the published meshes by other means.
 TEST(FineSocket, OfALabelMapIsThatOfTheMesh) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   struct Published {
     const char* mesh;
     Sphere head;

@@ -1,14 +1,7 @@
 #include "kinematics/hip_axes.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <cstdint>
-#include <numbers>
-#include <random>
-
 #include "condyle/sample/hip.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 /// Axes and sides of sample hips and real ones, whole and cut, in all axes in use and turned out of them.
 
@@ -179,8 +172,7 @@ struct Real {
 class HipAxesOfReal : public testing::TestWithParam<Real> {
  protected:
   void SetUp() override {
-    const auto data = shared_data();
-    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+    FOUND_OR_SKIP(data, shared_data());
     hip_ = {read_ply(*data / GetParam().hip_bone), read_ply(*data / GetParam().femur)};
     if (GetParam().side == Side::left) hip_ = mirrored(hip_);
   }

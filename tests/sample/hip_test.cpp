@@ -1,15 +1,5 @@
 #include "condyle/sample/hip.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
-
-#include "condyle/error.hpp"
 #include "core/thread_limit.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
@@ -18,6 +8,7 @@
 #include "sample/self_intersection.hpp"
 #include "sample/topology.hpp"
 #include "support/brute_force.hpp"
+#include "support/test.hpp"
 
 namespace condyle::sample {
 namespace {
@@ -26,15 +17,6 @@ using test::made_hip;
 using test::topology;
 
 constexpr Scenario hip_scenarios[] = {Scenario::one, Scenario::two, Scenario::three, Scenario::four};
-
-void expect_sound_hip(const TriMesh& mesh, int genus) {
-  const auto found = topology(mesh);
-  EXPECT_TRUE(found.is_closed_and_consistent);
-  EXPECT_TRUE(found.has_manifold_vertices);
-  EXPECT_EQ(found.components, 1);
-  EXPECT_EQ(found.genus, genus);
-  EXPECT_GT(found.signed_volume, 0);
-}
 
 TEST(SampleHip, HasTheCountsOfThePapersTable1) {
   const std::size_t femur_vertices[] = {773, 3086, 12338, 49346},
@@ -52,8 +34,8 @@ TEST(SampleHip, HasTheCountsOfThePapersTable1) {
 
 TEST(SampleHip, IsClosedManifoldAndWoundOutwardsWithOneHoleInTheHipBone) {
   for (const Scenario scenario : hip_scenarios) {
-    expect_sound_hip(made_hip(scenario).femur, 0);
-    expect_sound_hip(made_hip(scenario).hip_bone, 1);
+    test::expect_sound(made_hip(scenario).femur, 0);
+    test::expect_sound(made_hip(scenario).hip_bone, 1);
   }
 }
 
@@ -116,8 +98,8 @@ TEST(SampleHip, AnyEvenCountAndAnyEdgeLengthCanBeAskedFor) {
     const SampleHip hip = sample_hip({}, counts);
     EXPECT_EQ(hip.hip_bone.triangles.size(), counts.hip_bone);
     EXPECT_EQ(hip.femur.triangles.size(), counts.femur);
-    expect_sound_hip(hip.hip_bone, 1);
-    expect_sound_hip(hip.femur, 0);
+    test::expect_sound(hip.hip_bone, 1);
+    test::expect_sound(hip.femur, 0);
   }
   const TriMesh femur = sample_hip({}, EdgeLength{4}).femur;
   double sum = 0, count = 0;
@@ -276,8 +258,8 @@ TEST(SampleHip, CountsThatNoMeshCanHaveAreRefused) {
 TEST(SampleHip, LeftHipIsTheMirrorImage) {
   const SampleHip& right = made_hip(Scenario::one);
   const SampleHip left = mirrored(right);
-  expect_sound_hip(left.femur, 0);
-  expect_sound_hip(left.hip_bone, 1);
+  test::expect_sound(left.femur, 0);
+  test::expect_sound(left.hip_bone, 1);
   for (std::size_t v = 0; v < left.femur.vertices.size(); ++v) {
     EXPECT_EQ(left.femur.vertices[v], Vec3(1, 1, -1).cwiseProduct(right.femur.vertices[v]));
   }

@@ -1,17 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/error.hpp"
 #include "condyle/sample/hip.hpp"
 #include "support/real_hip.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 /// A total hip placed in a joint that is given: docs/implants.md.
 
@@ -175,8 +167,7 @@ TEST(PlacedImplant, OfALeftHipIsTheMirrorImage) {
 
 // A whole femur of triangles of 2.5 mm, whose axes of neck and shaft pass each other by 9 mm.
 TEST(PlacedImplant, OfARealHipLeavesItsFemurAndKeepsItClosed) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no shared data";
+  FOUND_OR_SKIP(hip, hip_vhf_right());
   const ImplantAnswer answer = placed({}, *hip);
   EXPECT_LT(answer.femur_shift_mm.norm(), 0.02);
   EXPECT_FALSE(has_note(answer, ImplantNoteCode::trochanter_cut));

@@ -1,13 +1,5 @@
 #include "sample/remesh.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
-
-#include "condyle/error.hpp"
 #include "mesh/editable_mesh.hpp"
 #include "sample/contour.hpp"
 #include "sample/edge_queue.hpp"
@@ -15,7 +7,7 @@
 #include "sample/self_intersection.hpp"
 #include "sample/solid_mesh.hpp"
 #include "sample/topology.hpp"
-#include "support/test_meshes.hpp"
+#include "support/test.hpp"
 
 namespace condyle::sample {
 namespace {
@@ -39,18 +31,9 @@ Solid ring_solid() {
   return {ring, {Vec3(-30, -30, -10), Vec3(30, 30, 10)}, {}};
 }
 
-void expect_sound_surface(const TriMesh& mesh, int genus) {
-  const auto found = test::topology(mesh);
-  EXPECT_TRUE(found.is_closed_and_consistent);
-  EXPECT_TRUE(found.has_manifold_vertices);
-  EXPECT_EQ(found.components, 1);
-  EXPECT_EQ(found.genus, genus);
-  EXPECT_GT(found.signed_volume, 0);
-}
-
 TEST(Contour, IsClosedAndOutwardWithVerticesBetweenInsideAndOutside) {
   const TriMesh mesh = contoured(ring_solid(), 1.7);
-  expect_sound_surface(mesh, 1);
+  test::expect_sound(mesh, 1);
   // A vertex lies on a lattice edge that the surface crosses: within the longest edge, the cube's diagonal.
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     EXPECT_LT(std::abs(ring_solid().field(mesh.vertices[v]).value), 1.7 * std::sqrt(3.0));
@@ -62,7 +45,7 @@ TEST(Contour, KeepsVerticesApartWhereTheSurfacePassesThroughLatticePoints) {
   // more nearly.
   const Solid solid = ball_solid(Vec3::Zero(), 5);
   const TriMesh mesh = contoured(solid, 1);
-  expect_sound_surface(mesh, 0);
+  test::expect_sound(mesh, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     EXPECT_NE(mesh.corner(t, 0), mesh.corner(t, 1));
     EXPECT_NE(mesh.corner(t, 1), mesh.corner(t, 2));
@@ -150,7 +133,7 @@ TEST(Remesh, ReachesAnyCountOnABallWithNearEquilateralTriangles) {
     const TriMesh mesh = remeshed(start, solid.field, even, count);
     EXPECT_EQ(mesh.vertices.size(), count);
     EXPECT_EQ(mesh.triangles.size(), 2 * count - 4);
-    expect_sound_surface(mesh, 0);
+    test::expect_sound(mesh, 0);
     EXPECT_FALSE(first_self_intersection(mesh));
     EXPECT_GT(test::smallest_angles_deg(mesh).front(), 30);
     for (std::size_t v = 0; v < count; ++v)
@@ -172,7 +155,7 @@ TEST(Remesh, KeepsTheHoleOfARing) {
   const Solid solid = ring_solid();
   const TriMesh mesh = meshed(solid, {even, 1.5, 200}, 402);
   EXPECT_EQ(mesh.triangles.size(), 402u);
-  expect_sound_surface(mesh, 1);
+  test::expect_sound(mesh, 1);
 }
 
 TEST(Remesh, FinerMeshesAreSubdivisionsOrReachTheirCountBySplits) {
@@ -182,7 +165,7 @@ TEST(Remesh, FinerMeshesAreSubdivisionsOrReachTheirCountBySplits) {
   for (std::size_t v = 0; v < base.vertices.size(); ++v) EXPECT_EQ(base.vertices[v], exact.vertices[v]);
   const TriMesh more = meshed(solid, meshing, 1606);
   EXPECT_EQ(more.triangles.size(), 1606u);
-  expect_sound_surface(more, 1);
+  test::expect_sound(more, 1);
   EXPECT_FALSE(first_self_intersection(more));
 }
 

@@ -1,16 +1,9 @@
 #include "condyle/sample/hip.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
+#include "support/test.hpp"
 
 /// A total hip in the sample hip: docs/implants.md.
 
@@ -27,11 +20,9 @@ Body body_with(const std::vector<plan::ImplantMesh>& meshes, const std::vector<s
   std::vector<BodyPart> parts;
   for (const auto& [part, mesh] : meshes) {
     if (std::find(names.begin(), names.end(), part) == names.end()) continue;
-    const auto first = static_cast<Index>(all.vertices.size());
     parts.push_back(
         {part, all.vertices.size(), mesh.vertices.size(), all.triangles.size(), mesh.triangles.size()});
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) all.vertices.push_back(mesh.vertices[v]);
-    for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({a + first, b + first, c + first});
+    append(all, mesh);
   }
   return {names.front(), Mesh(std::move(all)), std::move(parts)};
 }

@@ -1,11 +1,6 @@
 #include "sample/topology.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-#include <utility>
+#include "support/test.hpp"
 
 namespace condyle::test {
 
@@ -80,6 +75,15 @@ std::vector<double> smallest_angles_deg(const TriMesh& mesh) {
   }
   std::sort(angles.begin(), angles.end());
   return angles;
+}
+
+void expect_sound(const TriMesh& mesh, int genus) {
+  const Topology found = topology(mesh);
+  EXPECT_TRUE(found.is_closed_and_consistent);
+  EXPECT_TRUE(found.has_manifold_vertices);
+  EXPECT_EQ(found.components, 1);
+  EXPECT_EQ(found.genus, genus);
+  EXPECT_GT(found.signed_volume, 0);
 }
 
 }  // namespace condyle::test

@@ -16,6 +16,9 @@ struct Topology {
 };
 Topology topology(const TriMesh& mesh);
 
+/// One closed manifold of this genus, wound outwards.
+void expect_sound(const TriMesh& mesh, int genus);
+
 /// The smallest angle of every triangle in degrees, ascending.
 std::vector<double> smallest_angles_deg(const TriMesh& mesh);
 

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "condyle/angle.hpp"
 #include "condyle/pose.hpp"
 #include "core/rotation_about.hpp"
 
@@ -9,6 +10,13 @@ namespace condyle::test {
 
 inline Pose at(const Vec3& translation) {
   return Pose(Eigen::Translation3d(translation));
+}
+
+/// Turned about an axis of any length, then moved.
+inline Pose rotated(double degrees, const Vec3& axis, const Vec3& shift = Vec3::Zero()) {
+  Pose X = at(shift);
+  X.linear() = Eigen::AngleAxisd(Angle::degrees(degrees).radians(), axis.normalized()).toRotationMatrix();
+  return X;
 }
 
 /// Turned anyhow, and moved by up to `reach` along each axis.

@@ -29,3 +29,8 @@
 #include "support/test_meshes.hpp"
 
 /// What every test may use, beside what it is about: the standard library, meshes, refusals, real joints and folders of its own.
+
+/// Names what was found of the real joints, or ends the test.
+#define FOUND_OR_SKIP(name, found) \
+  const auto name = found;         \
+  if (!name) GTEST_SKIP() << "no shared data: set CONDYLE_DATA"

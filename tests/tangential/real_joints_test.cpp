@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "condyle/angle.hpp"
 #include "condyle/tangential.hpp"
 #include "core/thread_limit.hpp"
 #include "mesh/winding_number.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 namespace condyle::tangential {
 namespace {
@@ -48,8 +42,7 @@ Points posed_vertices(const TriMesh& mesh, const HipPose& pose) {
 }
 
 TEST(RealJoints, EveryStateIsThatOfTheWindingNumberAtEveryPoseAboutEveryCoordinateAxis) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   for (const auto& pair : pairs) {
     const TriMesh fixed = test::read_ply(*data / pair.fixed), mobile = test::read_ply(*data / pair.mobile);
     const mesh::WindingNumber winding(fixed);
@@ -75,8 +68,7 @@ TEST(RealJoints, EveryStateIsThatOfTheWindingNumberAtEveryPoseAboutEveryCoordina
 }
 
 TEST(RealJoints, AVertexOfTheMeshItselfIsOnTheSurfaceAndItsArcsAreThoseJustBesideIt) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh bone = test::read_ply(*data / "hip_libhip_m1_left/coarse/hip_bone_2442.ply");
   const RingTable table(bone, AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
   const auto results = table.query(bone.vertices);
@@ -100,8 +92,7 @@ TEST(RealJoints, AVertexOfTheMeshItselfIsOnTheSurfaceAndItsArcsAreThoseJustBesid
 }
 
 TEST(RealJoints, AFullTurnOfTheFemurIsAnsweredByOnePass) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh bone = test::read_ply(*data / "hip_libhip_m1_left/hip_bone.ply");
   const TriMesh femur = test::read_ply(*data / "hip_libhip_m1_left/coarse/femur_1542.ply");
   const auto arcs = RingTable(bone, AxisFrame(Vec3::Zero(), Vec3::UnitZ())).occupied_arcs(femur.vertices);
@@ -124,8 +115,7 @@ TEST(RealJoints, AFullTurnOfTheFemurIsAnsweredByOnePass) {
 }
 
 TEST(RealJoints, OneThreadAndManyGiveTheSameBytes) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh bone = test::read_ply(*data / "hip_vhf_right/hip_bone.ply");
   const Points points = posed_vertices(test::read_ply(*data / "hip_vhf_right/femur.ply"), {100, 30, 40, 0});
   const AxisFrame frame(Vec3::Zero(), Vec3(1, 2, -1));

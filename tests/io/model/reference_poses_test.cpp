@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <fmt/format.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
 #include "io/model/pose_of_rows.hpp"
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 // Poses of every joint of the shared models as an evaluator of another hand has them, which OpenSim's own positions of
 // bodies confirm: their READMEs.
@@ -22,8 +15,7 @@ using Json = nlohmann::json;
 class ReferencePoses : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    const auto data = test::shared_data();
-    if (!data) GTEST_SKIP() << "no shared data";
+    FOUND_OR_SKIP(data, test::shared_data());
     folder_ = *data / GetParam();
     if (!std::filesystem::exists(folder_)) GTEST_SKIP() << folder_ << " is missing";
     std::ifstream file(folder_ / "reference_poses.json");

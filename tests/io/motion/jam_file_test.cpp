@@ -1,18 +1,10 @@
 #include "condyle/io/jam_file.hpp"
 
-#include <gtest/gtest.h>
 #include <hdf5.h>
 
-#include <array>
-#include <cmath>
-#include <map>
-
-#include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "io/file/whole_file.hpp"
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {
@@ -195,8 +187,7 @@ TEST(JamFile, HasTheGroupsAndDatasetsThatScriptsRead) {
 }
 
 TEST(JamFile, ItsTotalsAreNamedAsThePublishedOnes) {
-  const auto data = test::shared_data();
-  if (!data) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(data, test::shared_data());
   const io::MotionTable published =
       io::read_motion_table(*data / "knee_lenhart2015_right" / "passive_flexion_contact_reference.sto");
   const TemporaryFolder folder;

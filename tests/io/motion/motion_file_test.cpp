@@ -1,13 +1,9 @@
 #include "condyle/io/recorded_motion.hpp"
 
-#include <gtest/gtest.h>
-
 #include <clocale>
-#include <cmath>
 
 #include "io/motion/motion_text.hpp"
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {
@@ -171,8 +167,7 @@ TEST(MotionFile, TheSecondTyOfXmalabIsTz) {
 }
 
 TEST(MotionFile, ReadsRealFiles) {
-  const auto folder = test::shared_data();
-  if (!folder) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(folder, test::shared_data());
   const io::MotionTable walk =
       io::read_motion_table(*folder / "motion_gait2354_walk" / "subject01_walk1_ik.mot");
   EXPECT_EQ(walk.rows, 73u);

@@ -1,16 +1,11 @@
 #include "condyle/io/recorded_motion.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 
 #include "core/predicates.hpp"
 #include "io/motion/motion_text.hpp"
 #include "io/motion/some_pose.hpp"
-#include "support/complaint.hpp"
-#include "support/shared_data.hpp"
+#include "support/test.hpp"
 
 namespace condyle {
 namespace {
@@ -237,8 +232,7 @@ Vec3 knee_angles(const Eigen::Matrix3d& R) {
 }
 
 TEST(RecordedPoses, AKneeMeasuredByMriIsWhereItsReadmeSays) {
-  const auto folder = test::shared_data();
-  if (!folder) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(folder, test::shared_data());
   const io::RecordedPoses poses = io::recorded_poses(
       io::read_motion_table(*folder / "motion_mri_knee" / "passive_body_transformations.sto"),
       {"femur_distal_r", "tibia_proximal_r", LengthUnit::metres});
@@ -262,8 +256,7 @@ TEST(RecordedPoses, AKneeMeasuredByMriIsWhereItsReadmeSays) {
 }
 
 TEST(RecordedCoordinates, OfARealWalkAndARealKnee) {
-  const auto folder = test::shared_data();
-  if (!folder) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
+  FOUND_OR_SKIP(folder, test::shared_data());
   const io::NamedCoordinates hip = io::recorded_coordinates(
       io::read_motion_table(*folder / "motion_gait2354_walk" / "subject01_walk1_ik.mot"),
       {{.coordinate = "flexion", .column = "hip_flexion_r"}});
