@@ -11,9 +11,24 @@
 #include <utility>
 #include <vector>
 
-/// Options that take one of some words.
+/// Options that take a value or one of some words, and flags that stand for a value.
 
 namespace condyle::cli {
+
+/// Adds an option with a value, which its help calls `value`.
+template <class Target>
+CLI::Option* add_value(CLI::App& command, const std::string& name, Target& target, const std::string& value,
+                       const std::string& help) {
+  return command.add_option(name, target, help)->option_text(value);
+}
+
+/// Adds a flag that writes `value` to `target` while arguments are read.
+template <class Target>
+CLI::Option* add_flag(CLI::App& command, const std::string& name, Target& target,
+                      std::type_identity_t<Target> value, const std::string& help) {
+  return command.add_flag_callback(
+      name, [&target, value] { target = value; }, help);
+}
 
 /// Adds the option `name`, which takes one of the words and calls `choose` with its place. Its help ends with the words and, in
 /// parentheses, what it is by default, if that is given.

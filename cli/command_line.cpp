@@ -1,9 +1,9 @@
 #include "command_line.hpp"
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <array>
+
+#include "choice.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -44,21 +44,18 @@ std::vector<std::string> words_of(const CLI::App& command) {
 }
 
 CLI::Option* add_out(CLI::App& command, std::string& out, const std::string& help) {
-  return command.add_option("--out", out, help)->option_text("FOLDER");
+  return add_value(command, "--out", out, "FOLDER", help);
 }
 
 CLI::Option* add_crate(CLI::App& command, std::optional<std::string>& date) {
-  return command
-      .add_option("--crate", date,
-                  "Say in ro-crate-metadata.json which files were made of which, as a Process Run Crate of "
-                  "RO-Crate that was published on this day: results have no date of their own")
-      ->option_text("YYYY-MM-DD");
+  return add_value(command, "--crate", date, "YYYY-MM-DD",
+                   "Say in ro-crate-metadata.json which files were made of which, as a Process Run Crate of "
+                   "RO-Crate that was published on this day: results have no date of their own");
 }
 
 void add_verbose(CLI::App& command, io::TextForm& form) {
-  command.add_flag_callback(
-      "--verbose", [&form] { form = io::TextForm::whole; },
-      "Print the table of bands, every caveat with its source and every note too");
+  add_flag(command, "--verbose", form, io::TextForm::whole,
+           "Print the table of bands, every caveat with its source and every note too");
 }
 
 void say_as(io::TextForm form) {
@@ -66,8 +63,7 @@ void say_as(io::TextForm form) {
 }
 
 void add_json(CLI::App& command, AnswerForm& form, const char* help) {
-  command.add_flag_callback(
-      "--json", [&form] { form = AnswerForm::json; }, help);
+  add_flag(command, "--json", form, AnswerForm::json, help);
 }
 
 }  // namespace condyle::cli

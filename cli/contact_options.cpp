@@ -35,15 +35,13 @@ void add_rays(CLI::App& command, io::ContactChanges& options, const std::string&
           "face_centre counts whole triangles by their centre, as OpenSim-JAM does; cut_faces cuts them "
           "where the depth is 0",
       "cut_faces");
-  command
-      .add_option("--reach", options.reach_mm,
-                  sentence(when, "how far rays go from one surface to the other"))
-      ->option_text("MM (20)");
+  add_value(command, "--reach", options.reach_mm, "MM (20)",
+            sentence(when, "how far rays go from one surface to the other"));
 }
 
 void add_layers(CLI::App& command, io::ContactChanges& options) {
   const auto add = [&](const char* name, std::vector<double>& values, const char* what, const char* text) {
-    command.add_option(name, values, what)->expected(1, 2)->option_text(text);
+    add_value(command, name, values, text, what)->expected(1, 2);
   };
   add("--e", options.youngs_modulus_mpa,
       "Young's modulus of both layers, or of the fixed body's and the mobile one's", "MPA [MPA]");
@@ -68,33 +66,25 @@ io::ContactEntry contact_of(const io::ContactChanges& changes, const io::JointFi
 }
 
 void add_force(CLI::App& command, BalanceArguments& given, const std::string& force_help) {
-  command
-      .add_option("--force", given.force,
-                  force_help + ", in N: anterior, superior and to the right, of a left joint too")
-      ->expected(3)
-      ->option_text("X Y Z");
+  add_value(command, "--force", given.force, "X Y Z",
+            force_help + ", in N: anterior, superior and to the right, of a left joint too")
+      ->expected(3);
   add_choice(command, "--force-frame", given.frame,
              {{"fixed", BodyRole::fixed}, {"mobile", BodyRole::mobile}},
              "The body in whose frame force and moment are given", "fixed");
-  command
-      .add_option("--along", given.along,
-                  "With a force: move along this direction of the fixed frame only, or in the plane of two")
-      ->expected(3, 6)
-      ->option_text("X Y Z [X Y Z]");
+  add_value(command, "--along", given.along, "X Y Z [X Y Z]",
+            "With a force: move along this direction of the fixed frame only, or in the plane of two")
+      ->expected(3, 6);
 }
 
 void add_balance(CLI::App& command, BalanceArguments& given) {
   add_force(command, given, "Move the mobile body to where the contact carries this force on it");
-  command
-      .add_option("--moment", given.moment,
-                  "With --free-rotations: balance this moment about the mobile body's origin too, in N mm")
-      ->expected(3)
-      ->option_text("X Y Z");
-  command.add_flag_callback(
-      "--free-rotations", [&given] { given.rotations = true; }, "With a force: rotate the mobile body too");
-  command.add_flag_callback(
-      "--ligaments", [&given] { given.ligaments = true; },
-      "With a force, which may then be 0 0 0: the joint's ligaments pull beside the contact");
+  add_value(command, "--moment", given.moment, "X Y Z",
+            "With --free-rotations: balance this moment about the mobile body's origin too, in N mm")
+      ->expected(3);
+  add_flag(command, "--free-rotations", given.rotations, true, "With a force: rotate the mobile body too");
+  add_flag(command, "--ligaments", given.ligaments, true,
+           "With a force, which may then be 0 0 0: the joint's ligaments pull beside the contact");
 }
 
 std::vector<Vec3> directions_of(const std::vector<double>& along) {
@@ -110,18 +100,14 @@ bool StudyLoadArguments::any_beside() const noexcept {
 }
 
 void add_study_load(CLI::App& command, StudyLoadArguments& given, const std::string& when) {
-  command
-      .add_option("--force", given.force,
-                  when +
-                      "move the mobile body to where the contact carries this force on it, in N; lateral is "
-                      "to the right of a right joint, to the left of a left one")
-      ->expected(3)
-      ->option_text("ANTERIOR SUPERIOR LATERAL");
-  command
-      .add_option("--along", given.along,
-                  "With --force: move along this direction only, or in the plane of two")
-      ->expected(3, 6)
-      ->option_text("ANTERIOR SUPERIOR LATERAL [...]");
+  add_value(command, "--force", given.force, "ANTERIOR SUPERIOR LATERAL",
+            when +
+                "move the mobile body to where the contact carries this force on it, in N; lateral is "
+                "to the right of a right joint, to the left of a left one")
+      ->expected(3);
+  add_value(command, "--along", given.along, "ANTERIOR SUPERIOR LATERAL [...]",
+            "With --force: move along this direction only, or in the plane of two")
+      ->expected(3, 6);
   add_rays(command, given.contact, "With --load: ");
   add_layers(command, given.contact);
 }

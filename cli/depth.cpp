@@ -11,7 +11,6 @@
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/inspect.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "contact_options.hpp"
 #include "io/file/whole_file.hpp"
@@ -124,9 +123,7 @@ void add_depth(CLI::App& app) {
       "\"flexion=90 adduction=-10 internal_rotation=20\"; omitted values are 0. Or 16 numbers, the matrix "
       "X_FM row by row");
   pose->option_text("POSE (all 0)");
-  command->add_option("--matrix", options->matrix, "Read that matrix from this file")
-      ->excludes(pose)
-      ->option_text("FILE");
+  add_value(*command, "--matrix", options->matrix, "FILE", "Read that matrix from this file")->excludes(pose);
   add_choice(*command, "--method", options->method,
              {{"reliable", DepthMethod::reliable},
               {"radial", DepthMethod::radial},
@@ -137,24 +134,18 @@ void add_depth(CLI::App& app) {
              "a joint axis that frees the vertex soonest; radial along rays; tangential along arcs about one "
              "axis; normal from triangles along their normals, open meshes too",
              "reliable");
-  command
-      ->add_option(
-          "--about", options->about,
-          "With --method tangential: the angle whose axis the mobile body rotates about, or an axis in "
-          "the joint frame, \"x y z\", and a point of it in mm, \"x y z px py pz\"")
-      ->option_text("flexion|adduction|internal_rotation|AXIS [POINT] (flexion)");
+  add_value(*command, "--about", options->about, "flexion|adduction|internal_rotation|AXIS [POINT] (flexion)",
+            "With --method tangential: the angle whose axis the mobile body rotates about, or an axis in "
+            "the joint frame, \"x y z\", and a point of it in mm, \"x y z px py pz\"");
   add_rays(*command, options->rays, "With --method normal: ");
   auto* out = add_out(*command, options->out,
                       "Write fixed.vtp, mobile.vtp, pairs.csv and depth.json into this folder");
   add_where(*command, *options);
-  command
-      ->add_flag_callback(
-          "--csv", [options] { options->vertices = io::VertexTables::write; },
-          "With --out: write fixed.csv and mobile.csv too, a line per vertex")
+  add_flag(*command, "--csv", options->vertices, io::VertexTables::write,
+           "With --out: write fixed.csv and mobile.csv too, a line per vertex")
       ->needs(out);
-  command->add_flag_callback(
-      "--pairs-only", [options] { options->scope = Scope::pairs_only; },
-      "Accept open meshes: list the pairs of triangles in contact, and vertices inside a closed body");
+  add_flag(*command, "--pairs-only", options->scope, Scope::pairs_only,
+           "Accept open meshes: list the pairs of triangles in contact, and vertices inside a closed body");
   add_json(*command, options->form);
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--pose", "--method", "--out", "--json", "--strict"}},

@@ -1,10 +1,9 @@
 #include "follow_options.hpp"
 
 #include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 
 #include "answer.hpp"
+#include "choice.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"
 
@@ -16,9 +15,9 @@ void add_follow(CLI::App& command, FollowArguments& given, const std::vector<CLI
       "Do not hold the centre of a free joint: its translation at each angle is that of this recorded "
       "motion, .mot, .sto or .csv, as condyle motion reads it. Limits are then bounded, not exact");
   record->option_text("FILE");
-  auto* load = command.add_flag_callback(
-      "--follow-load", [&given] { given.load = true; },
-      "Do not hold the centre of a free joint: at each angle the layers of [contact] carry --force");
+  auto* load =
+      add_flag(command, "--follow-load", given.load, true,
+               "Do not hold the centre of a free joint: at each angle the layers of [contact] carry --force");
   add_force(command, given.balance, "With --follow-load: the force on the mobile body");
   load->excludes(record);
   for (CLI::Option* other : excluded)

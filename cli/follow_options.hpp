@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,11 +9,6 @@
 #include "condyle/io/joint_file.hpp"
 #include "contact_options.hpp"
 #include "io/motion/follow.hpp"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 /// --follow, --follow-load and --force, shared by the commands that answer for a range of motion.
 

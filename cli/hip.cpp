@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -420,15 +419,11 @@ void add_hip(CLI::App& app) {
       ->required();
   command->add_option("FEMUR", options->femora, "The mesh of a femur, or of each; or label maps of them")
       ->expected(0, 2);
-  command
-      ->add_option("--out", options->out, "Write a folder for each side into this one, which is new or empty")
-      ->required()
-      ->option_text("FOLDER");
-  command
-      ->add_option(
-          "--plan", options->cut.targets,
-          "Plan the bone that must go for these motions to reach this far, as condyle resect --reach")
-      ->option_text("MOTION=DEG ...");
+  add_value(*command, "--out", options->out, "FOLDER",
+            "Write a folder for each side into this one, which is new or empty")
+      ->required();
+  add_value(*command, "--plan", options->cut.targets, "MOTION=DEG ...",
+            "Plan the bone that must go for these motions to reach this far, as condyle resect --reach");
   add_confidence(*command, options->cut)->needs("--plan");
   add_side(*command, options->side,
            "Only this hip. Default: by the labels' names, else inferred from the bones");
@@ -439,27 +434,20 @@ void add_hip(CLI::App& app) {
               {"m", LengthUnit::metres}},
              "The unit of the meshes. Default: inferred from their size");
   add_polygons(*command, options->polygons, "refuse");
-  command
-      ->add_option("--fixed", options->fixed_label,
-                   "The label of the pelvis or hip bone: its number, or its name. Default: by its name")
-      ->option_text("LABEL");
-  command->add_option("--mobile", options->mobile_label, "The label of the femur, or of both")
-      ->option_text("LABEL");
+  add_value(*command, "--fixed", options->fixed_label, "LABEL",
+            "The label of the pelvis or hip bone: its number, or its name. Default: by its name");
+  add_value(*command, "--mobile", options->mobile_label, "LABEL", "The label of the femur, or of both");
   add_label_surface(*command, options->labels);
   add_label_file(*command, options->labels);
-  command
-      ->add_option("--samples", options->range.band.samples,
-                   "Varied joints of each band, from 5 to 95 % of them; 0 for limits without bands")
-      ->check(whole_number(0))
-      ->option_text("N (200)");
+  add_value(*command, "--samples", options->range.band.samples, "N (200)",
+            "Varied joints of each band, from 5 to 95 % of them; 0 for limits without bands")
+      ->check(whole_number(0));
   add_accept(*command, options->range);
-  command
-      ->add_option("--case", options->words.case_name,
-                   "Begin the headings with this: a number or a pseudonym")
-      ->option_text("TEXT");
+  add_value(*command, "--case", options->words.case_name, "TEXT",
+            "Begin the headings with this: a number or a pseudonym");
   add_person(*command, options->person);
-  command->add_option("--note", options->words.note, "Put this under the results")->option_text("TEXT");
-  command->add_option("--date", options->words.date, "Put this date into the headings")->option_text("TEXT");
+  add_value(*command, "--note", options->words.note, "TEXT", "Put this under the results");
+  add_value(*command, "--date", options->words.date, "TEXT", "Put this date into the headings");
   add_crate(*command, options->crate_date);
   add_verbose(*command, options->form);
   std::vector<std::string> of_labels{"--fixed", "--mobile"};

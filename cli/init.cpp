@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
@@ -173,17 +172,12 @@ void add_init(CLI::App& app) {
   command->add_option(
       "MOBILE", options->mobile,
       "The mesh of the body that moves, such as the femur; a label map if it is in a file of its own");
-  command
-      ->add_option("--fixed", options->fixed_label,
-                   "The label of the fixed body: its number, or its name if the file or --task has names")
-      ->option_text("LABEL");
-  command->add_option("--mobile", options->mobile_label, "The label of the mobile body")
-      ->option_text("LABEL");
-  command
-      ->add_option("--joint", options->joint,
-                   "The joint of a model, by its name there; of two meshes hip, knee, ankle, elbow or "
-                   "shoulder, FIXED the bone nearer to the trunk. Default for two meshes: hip")
-      ->option_text("NAME");
+  add_value(*command, "--fixed", options->fixed_label, "LABEL",
+            "The label of the fixed body: its number, or its name if the file or --task has names");
+  add_value(*command, "--mobile", options->mobile_label, "LABEL", "The label of the mobile body");
+  add_value(*command, "--joint", options->joint, "NAME",
+            "The joint of a model, by its name there; of two meshes hip, knee, ankle, elbow or "
+            "shoulder, FIXED the bone nearer to the trunk. Default for two meshes: hip");
   add_model(*command, options->model);
   add_label_surface(*command, options->labels);
   add_label_file(*command, options->labels);
@@ -197,10 +191,8 @@ void add_init(CLI::App& app) {
               {"m", LengthUnit::metres}},
              "The unit of both meshes. Default: inferred from their size");
   add_species(*command, options->person.species);
-  command
-      ->add_option("-o,--out", options->out,
-                   "Write the joint file here, and surfaces of a label map beside it")
-      ->option_text("FILE (standard output)");
+  add_value(*command, "-o,--out", options->out, "FILE (standard output)",
+            "Write the joint file here, and surfaces of a label map beside it");
   std::vector<std::string> of_labels{"--fixed", "--mobile"};
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
   std::vector<std::string> of_models;

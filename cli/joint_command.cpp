@@ -6,13 +6,11 @@
 namespace condyle::cli {
 
 void add_set(CLI::App& command, std::vector<std::string>& parameters) {
-  command
-      .add_option("--set", parameters,
-                  "Move a part of the joint file to this value of its parameter, such as cup.inclination=42, "
-                  "or several in one text; any number")
+  add_value(command, "--set", parameters, "PART.PARAMETER=VALUE ...",
+            "Move a part of the joint file to this value of its parameter, such as cup.inclination=42, "
+            "or several in one text; any number")
       ->expected(1)
-      ->take_all()
-      ->option_text("PART.PARAMETER=VALUE ...");
+      ->take_all();
 }
 
 void add_joint(CLI::App& command, JointArguments& given, const char* help) {
@@ -21,27 +19,23 @@ void add_joint(CLI::App& command, JointArguments& given, const char* help) {
 }
 
 void add_person(CLI::App& command, Person& person) {
-  command
-      .add_option("--age", person.age_years,
-                  "Hold limits against people of this age, instead of that of the joint file")
+  add_value(command, "--age", person.age_years, "YEARS",
+            "Hold limits against people of this age, instead of that of the joint file")
       ->check(
           [](const std::string& text) {
             double years = 0;
             return CLI::detail::lexical_cast(text, years) && is_age(years) ? "" : "must be 0 to 120 years";
           },
-          "")
-      ->option_text("YEARS");
+          "");
   add_choice(command, "--sex", person.sex, {{"female", Sex::female}, {"male", Sex::male}},
              "The same of this sex");
   add_species(command, person.species);
 }
 
 void add_species(CLI::App& command, std::string& species) {
-  command
-      .add_option("--species", species,
-                  "Whose bones they are, if not a human's: then nothing is held against sizes and ranges of "
-                  "people, and no unit is inferred from sizes")
-      ->option_text("NAME");
+  add_value(command, "--species", species, "NAME",
+            "Whose bones they are, if not a human's: then nothing is held against sizes and ranges of "
+            "people, and no unit is inferred from sizes");
 }
 
 void add_where(CLI::App& command, JointArguments& given) {
@@ -50,9 +44,8 @@ void add_where(CLI::App& command, JointArguments& given) {
           "--frame", [&given](const std::string& name) { given.frame = io::answer_frame_named(name); },
           "The frame in which points and meshes are written: that of the joint, or that of the mesh files")
       ->option_text("joint|source (joint)");
-  command.add_flag_callback(
-      "--ascii", [&given] { given.vtp_encoding = io::VtpEncoding::text; },
-      "Write VTP files as text, which OpenSim reads");
+  add_flag(command, "--ascii", given.vtp_encoding, io::VtpEncoding::text,
+           "Write VTP files as text, which OpenSim reads");
 }
 
 io::LoadedJoint joint_at(io::LoadedJoint loaded, const std::vector<std::string>& parameters,

@@ -1,8 +1,8 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -60,12 +60,9 @@ void add_load(CLI::App& app) {
       "         condyle load sample/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 1500 -200");
   auto options = std::make_shared<LoadArguments>();
   add_joint(*command, *options);
-  command
-      ->add_option(
-          "--pose", options->pose,
-          "Compute in this pose, or start from it: angles in degrees and, of a free joint, x, y, z in mm, "
-          "such as \"flexion=30 x=2\"; or 16 numbers, the matrix X_FM row by row")
-      ->option_text("POSE (all 0)");
+  add_value(*command, "--pose", options->pose, "POSE (all 0)",
+            "Compute in this pose, or start from it: angles in degrees and, of a free joint, x, y, z in mm, "
+            "such as \"flexion=30 x=2\"; or 16 numbers, the matrix X_FM row by row");
   add_rays(*command, options->contact);
   add_layers(*command, options->contact);
   add_balance(*command, options->balance);

@@ -1,7 +1,7 @@
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "io/result/measure_result.hpp"
@@ -42,10 +42,8 @@ void add_measure(CLI::App& app) {
       "A measure that the meshes do not show is empty, with the reason.");
   auto options = std::make_shared<MeasureArguments>();
   add_joint(*command, *options);
-  command
-      ->add_option("--tilt", options->tilt_deg,
-                   "Tilt the pelvis forwards by this before acetabular angles are measured, -60 to 60")
-      ->option_text("DEG (0)");
+  add_value(*command, "--tilt", options->tilt_deg, "DEG (0)",
+            "Tilt the pelvis forwards by this before acetabular angles are measured, -60 to 60");
   add_band(*command, options->range);
   add_out(*command, options->out, "Write measures.json, measures.csv, neck.csv and rim.csv into this folder");
   command->add_flag(

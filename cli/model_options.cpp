@@ -6,7 +6,6 @@
 
 #include "choice.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/pose_text.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/mesh/polygon_rule.hpp"
 
@@ -22,12 +21,9 @@ void add_anatomy(CLI::App& command, std::optional<Anatomy>& anatomy, const std::
 }
 
 void add_geometry(CLI::App& command, std::vector<std::string>& folders) {
-  command
-      .add_option(
-          "--geometry", folders,
-          "Look for a model's meshes here too, after its own folder and its folder Geometry; any number")
-      ->allow_extra_args(false)
-      ->option_text("FOLDER");
+  add_value(command, "--geometry", folders, "FOLDER",
+            "Look for a model's meshes here too, after its own folder and its folder Geometry; any number")
+      ->allow_extra_args(false);
 }
 
 void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, const std::string& otherwise) {
@@ -43,19 +39,17 @@ void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, c
 }
 
 void add_repair(CLI::App& command, std::vector<std::string>& repairs) {
-  command.add_option("--repair", repairs, "Make these repairs, which lose nothing, in this order")
+  add_value(command, "--repair", repairs, "weld,drop_unreferenced,flip_inverted",
+            "Make these repairs, which lose nothing, in this order")
       ->delimiter(',')
-      ->allow_extra_args(false)
-      ->option_text("weld,drop_unreferenced,flip_inverted");
+      ->allow_extra_args(false);
 }
 
 void add_model(CLI::App& command, ModelOptions& options) {
   add_anatomy(command, options.anatomy,
               "The kind of a model's joint. Default: by the names of joint and bodies");
-  command
-      .add_option("--contact", options.contact,
-                  "The contact of a model between the two bodies. Default: the first")
-      ->option_text("NAME");
+  add_value(command, "--contact", options.contact, "NAME",
+            "The contact of a model between the two bodies. Default: the first");
   add_geometry(command, options.geometry);
   add_polygons(command, options.polygons, "refuse; for meshes of a model split");
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "contact_options.hpp"
@@ -124,56 +125,45 @@ void add_motion(CLI::App& app) {
       "the like. A joint of an OpenSim model is MODEL.osim --joint NAME.");
   auto options = std::make_shared<MotionArguments>();
   add_joint(*command, *options, "The joint file, .toml, or a model of OpenSim, .osim, with --joint");
-  command->add_option("--motion", options->motion, "The recorded motion, .mot, .sto or .csv")
-      ->required()
-      ->option_text("FILE");
-  command->add_option("--joint", options->model_joint, "The joint of a model, as condyle init takes it")
-      ->option_text("NAME");
+  add_value(*command, "--motion", options->motion, "FILE", "The recorded motion, .mot, .sto or .csv")
+      ->required();
+  add_value(*command, "--joint", options->model_joint, "NAME",
+            "The joint of a model, as condyle init takes it");
   add_side(*command, options->side, "The side of a model's joint. Default: by the ending of its name");
   add_model(*command, options->model);
-  command->add_flag_callback(
-      "--load", [options] { options->with_pressure = true; },
+  add_flag(
+      *command, "--load", options->with_pressure, true,
       "Compute pressure, force and moment of the recorded poses too, with the layers of the options or of "
       "the joint file; --force and --loads include it");
   add_rays(*command, options->contact);
   add_layers(*command, options->contact);
   add_balance(*command, options->balance);
-  command
-      ->add_option(
-          "--loads", options->loads,
-          "Move the mobile body in each frame to where the contact carries that row of this table: columns "
-          "force_x_n, force_y_n, force_z_n; with --free-rotations moment_x_nmm, ... too")
+  add_value(*command, "--loads", options->loads, "FILE",
+            "Move the mobile body in each frame to where the contact carries that row of this table: columns "
+            "force_x_n, force_y_n, force_z_n; with --free-rotations moment_x_nmm, ... too")
       ->excludes(command->get_option("--force"))
-      ->excludes(command->get_option("--moment"))
-      ->option_text("FILE");
-  command->add_flag_callback(
-      "--to-limits", [options] { options->to_limits = true; },
+      ->excludes(command->get_option("--moment"));
+  add_flag(
+      *command, "--to-limits", options->to_limits, true,
       "Compute how far each frame is from the nearest limit, one angle turning alone: some 10 ms a frame");
-  command->add_flag_callback(
-      "--screws", [options] { options->screws = true; },
-      "Compute depths along arcs about the screw axis of the step into each frame: some 10 ms a frame");
-  auto* between = command->add_flag_callback(
-      "--between", [options] { options->between = true; },
+  add_flag(*command, "--screws", options->screws, true,
+           "Compute depths along arcs about the screw axis of the step into each frame: some 10 ms a frame");
+  auto* between = add_flag(
+      *command, "--between", options->between, true,
       "Also find contact between the samples, within bounds, if the centre moves. About a held centre it "
       "is exact and always found");
   for (const char* load : {"--force", "--moment", "--loads"}) between->excludes(command->get_option(load));
   auto* out =
       add_out(*command, options->out, "Write curves.csv, curves.sto and motion.json into this folder");
-  command
-      ->add_option("--cycle", options->cycle,
-                   "With --out: write cycle.csv too, 101 points between two times in seconds")
+  add_value(*command, "--cycle", options->cycle, "START END",
+            "With --out: write cycle.csv too, 101 points between two times in seconds")
       ->expected(2)
-      ->needs(out)
-      ->option_text("START END");
-  command
-      ->add_flag_callback(
-          "--maps", [options] { options->files.maps = true; },
-          "With --out: write a VTP file per frame too, and motion.pvd for ParaView")
       ->needs(out);
-  command
-      ->add_flag_callback(
-          "--jam", [options] { options->files.jam = true; },
-          "With --out: write jam.h5 too, as OpenSim-JAM writes contact")
+  add_flag(*command, "--maps", options->files.maps, true,
+           "With --out: write a VTP file per frame too, and motion.pvd for ParaView")
+      ->needs(out);
+  add_flag(*command, "--jam", options->files.jam, true,
+           "With --out: write jam.h5 too, as OpenSim-JAM writes contact")
       ->needs(out);
   add_where(*command, *options);
   add_json(*command, options->form);

@@ -3,23 +3,21 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <string>
 
 #include "answer.hpp"
+#include "choice.hpp"
 #include "condyle/error.hpp"
 #include "kinematics/wrong_set_up.hpp"
 
 namespace condyle::cli {
 
 void add_strict(CLI::App& command, Strictness& strictness, const std::string& or_what) {
-  command.add_flag_callback(
-      "--strict", [&strictness] { strictness = Strictness::errors; },
-      "Refuse to answer, with exit code 4, if something looks wrong with the joint (side, axes, units, "
-      "centre, meshes)" +
-          or_what + ". By default a note reports it");
+  add_flag(command, "--strict", strictness, Strictness::errors,
+           "Refuse to answer, with exit code 4, if something looks wrong with the joint (side, axes, units, "
+           "centre, meshes)" +
+               or_what + ". By default a note reports it");
 }
 
 namespace {

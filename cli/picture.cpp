@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <limits>
 #include <memory>
@@ -98,15 +97,12 @@ void add_picture(CLI::App& app) {
       "anterior-superior --hide fixed --out deep.png");
   auto options = std::make_shared<PictureArguments>();
   add_joint(*command, *options);
-  command
-      ->add_option("--pose", options->pose,
-                   "Draw this pose: angles in degrees, and x, y, z of a free joint in mm, such as "
-                   "\"flexion=110\"; or 16 numbers, the matrix X_FM row by row")
-      ->option_text("POSE (all 0)");
-  command
-      ->add_option("--view", options->view,
-                   "View from this side; several with hyphens give a view from between them")
-      ->option_text("anterior|posterior|left|right|superior|inferior|medial|lateral (anterior)");
+  add_value(*command, "--pose", options->pose, "POSE (all 0)",
+            "Draw this pose: angles in degrees, and x, y, z of a free joint in mm, such as "
+            "\"flexion=110\"; or 16 numbers, the matrix X_FM row by row");
+  add_value(*command, "--view", options->view,
+            "anterior|posterior|left|right|superior|inferior|medial|lateral (anterior)",
+            "View from this side; several with hyphens give a view from between them");
   add_choice(
       *command, "--colour", options->picture.colour,
       {{"depth", io::PictureColour::depth},
@@ -116,16 +112,11 @@ void add_picture(CLI::App& app) {
       "Colour by depth in the other bone, as condyle depth computes it; by the gap along rays from the "
       "centre; by the distance to the nearest point; or not",
       "depth");
-  command
-      ->add_option(
-          "--about", options->about,
-          "Colour by the depth along arcs about this angle's axis, or about an axis, as condyle depth "
-          "takes it")
-      ->option_text("ANGLE|AXIS [POINT]");
-  command
-      ->add_option("--range", options->picture.range_mm,
-                   "Colours end at this distance or depth. Default: 8 mm, and for depths enough for all")
-      ->option_text("MM");
+  add_value(*command, "--about", options->about, "ANGLE|AXIS [POINT]",
+            "Colour by the depth along arcs about this angle's axis, or about an axis, as condyle depth "
+            "takes it");
+  add_value(*command, "--range", options->picture.range_mm, "MM",
+            "Colours end at this distance or depth. Default: 8 mm, and for depths enough for all");
   command
       ->add_option_function<std::string>(
           "--field", [options](const std::string& text) { read_field(text, options->picture); },
@@ -135,17 +126,15 @@ void add_picture(CLI::App& app) {
   command->add_flag("--measures", options->measures,
                     "Draw the marks of condyle measure: axis of the neck, points and plane of the rim, where "
                     "the head's contour ends");
-  command->add_flag_callback(
-      "--plain", [options] { options->picture.is_annotated = false; },
+  add_flag(
+      *command, "--plain", options->picture.is_annotated, false,
       "Leave out the scale bar, the letters of the sides, the line of the pose and the key of --measures");
   add_body(*command, "--hide", options->hidden, "Do not draw this body");
   add_body(*command, "--transparent", options->transparent,
            "Draw this body as glass. If depths are shown without this and --hide, the outer one is");
-  command->add_option("--size", options->size, "Width and height in pixels, 64 to 8192 each")
-      ->option_text("WIDTHxHEIGHT (1200x900)");
-  command->add_option("--out", options->out, "Write the picture to this file, .png")
-      ->required()
-      ->option_text("FILE");
+  add_value(*command, "--size", options->size, "WIDTHxHEIGHT (1200x900)",
+            "Width and height in pixels, 64 to 8192 each");
+  add_value(*command, "--out", options->out, "FILE", "Write the picture to this file, .png")->required();
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
                         {"Output",

@@ -1,9 +1,8 @@
 #include "range_options.hpp"
 
 #include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 
+#include "choice.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/joint/grid_text.hpp"
@@ -37,33 +36,26 @@ std::optional<Vec3> translation_of(const std::string& text, const Joint& joint) 
 }  // namespace
 
 CLI::Option* add_map(CLI::App& command, RangeArguments& given) {
-  auto* map =
-      command
-          .add_option("--map", given.map,
-                      "Compute limits over a grid of two held angles, in degrees, such as "
-                      "flexion=-20:120:1 adduction=-40:30:1, or of x, y or z of a free joint, in mm. The "
-                      "first one runs to the right. One more, such as flexion=30, is held there")
-          ->option_text("AXIS=FIRST:LAST:STEP AXIS=FIRST:LAST:STEP")
-          // One is refused below, and a file that was taken for the second one: with words that help.
-          ->expected(1, 4)
-          ->check(
-              [](const std::string& axis) {
-                return axis.find('=') == axis.npos ? "'" + axis + "' is no axis: " + map_needs
-                                                   : std::string();
-              },
-              "");
-  command
-      .add_option("--vary", given.vary,
-                  "With --map: the angle that turns over the grid, or the translation x, y or z")
-      ->option_text("AXIS (the third angle)");
+  auto* map = add_value(command, "--map", given.map, "AXIS=FIRST:LAST:STEP AXIS=FIRST:LAST:STEP",
+                        "Compute limits over a grid of two held angles, in degrees, such as "
+                        "flexion=-20:120:1 adduction=-40:30:1, or of x, y or z of a free joint, in mm. The "
+                        "first one runs to the right. One more, such as flexion=30, is held there")
+                  // One is refused below, and a file that was taken for the second one: with words that help.
+                  ->expected(1, 4)
+                  ->check(
+                      [](const std::string& axis) {
+                        return axis.find('=') == axis.npos ? "'" + axis + "' is no axis: " + map_needs
+                                                           : std::string();
+                      },
+                      "");
+  add_value(command, "--vary", given.vary, "AXIS (the third angle)",
+            "With --map: the angle that turns over the grid, or the translation x, y or z");
   return map;
 }
 
 CLI::Option* add_translation(CLI::App& command, RangeArguments& given) {
-  return command
-      .add_option("--translation", given.translation,
-                  "Hold a free joint here in all motions, in mm. Default: the reference pose's place")
-      ->option_text("\"x=X y=Y z=Z\"");
+  return add_value(command, "--translation", given.translation, "\"x=X y=Y z=Z\"",
+                   "Hold a free joint here in all motions, in mm. Default: the reference pose's place");
 }
 
 CLI::Option* add_bearing(CLI::App& command, RangeArguments& given) {
@@ -76,8 +68,8 @@ CLI::Option* add_bearing(CLI::App& command, RangeArguments& given) {
 }
 
 CLI::Option* add_accept(CLI::App& command, RangeArguments& given) {
-  return command.add_flag_callback(
-      "--accept-reference-contact", [&given] { given.reference_contact = motion::ReferenceContact::accept; },
+  return add_flag(
+      command, "--accept-reference-contact", given.reference_contact, motion::ReferenceContact::accept,
       "Answer although the bodies are in contact in the reference pose. Motions that start in contact report "
       "so");
 }
@@ -90,42 +82,31 @@ CLI::Option* add_band(CLI::App& command, RangeArguments& given, std::uint64_t fe
                    ->each([&given](const std::string& text) { given.band.samples = std::stoull(text); })
                    ->option_text("[=N] (200)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };
-  for_band(command
-               .add_option("--seed", given.band.seed,
-                           "With --band: the seed of the displacements, instead of that of the joint file")
-               ->check(seed_number())
-               ->option_text("N (1)"));
-  for_band(
-      command
-          .add_option("--sigma-centre", given.band.centre_mm,
-                      "With --band: the standard deviation of each coordinate of the centre, instead of "
-                      "that of the joint file. 1.9 answers for the centre about which a living hip turns")
-          ->option_text("MM (0.5)"));
-  for_band(command
-               .add_option("--sigma-axes", given.band.axes_deg,
-                           "With --band: the same of the rotation about each axis")
-               ->option_text("DEG (1)"));
-  for_band(command
-               .add_option("--sigma-surface", given.band.surface_mm,
-                           "With --band: the same of each surface along its normals")
-               ->option_text("MM (0.25, of a label map 0.25 voxels)"));
+  for_band(add_value(command, "--seed", given.band.seed, "N (1)",
+                     "With --band: the seed of the displacements, instead of that of the joint file")
+               ->check(seed_number()));
+  for_band(add_value(command, "--sigma-centre", given.band.centre_mm, "MM (0.5)",
+                     "With --band: the standard deviation of each coordinate of the centre, instead of "
+                     "that of the joint file. 1.9 answers for the centre about which a living hip turns"));
+  for_band(add_value(command, "--sigma-axes", given.band.axes_deg, "DEG (1)",
+                     "With --band: the same of the rotation about each axis"));
+  for_band(add_value(command, "--sigma-surface", given.band.surface_mm,
+                     "MM (0.25, of a label map 0.25 voxels)",
+                     "With --band: the same of each surface along its normals"));
   return band;
 }
 
 CLI::Option* add_past(CLI::App& command, RangeArguments& given) {
-  return command.add_option("--past", given.past_deg, "Find the impingement zones this far past each limit")
-      ->option_text("DEG");
+  return add_value(command, "--past", given.past_deg, "DEG",
+                   "Find the impingement zones this far past each limit");
 }
 
 void add_motions(CLI::App& command, std::vector<std::string>& lists) {
-  command
-      .add_option(
-          "--motion", lists,
-          "Compute the limits of this motion only, or of these, with commas between their names: those of "
-          "condyle rom --list-motions")
+  add_value(command, "--motion", lists, "NAME[,NAME...] (all)",
+            "Compute the limits of this motion only, or of these, with commas between their names: those of "
+            "condyle rom --list-motions")
       ->expected(1)
-      ->take_all()
-      ->option_text("NAME[,NAME...] (all)");
+      ->take_all();
 }
 
 std::vector<std::string> names_in(const std::vector<std::string>& lists) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,11 +8,6 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 /// Options on limits, their bands and maps, shared by the commands that compute them.
 

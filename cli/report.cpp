@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/joint.hpp"
@@ -203,54 +203,39 @@ void add_report(CLI::App& app) {
   command->add_option("JOINT", options->first, "The joint file, .toml; with AFTER, that of the joint before");
   command->add_option("AFTER", options->second,
                       "Show this joint file, and compare it with JOINT. --set is for this one only");
-  command->add_flag_callback(
-      "--empty", [options] { options->content = Content::nothing; },
+  add_flag(
+      *command, "--empty", options->content, Content::nothing,
       "Write a page without a joint, which takes files that are dropped on it and has a sample hip to try");
-  command->add_option("--out", options->out, "Write the page to this file, .html")
-      ->required()
-      ->option_text("FILE");
-  command->add_option("--title", options->title, "Put this heading on the page")
-      ->option_text("TEXT (the joint's name)");
-  command
-      ->add_option("--case", options->labels.case_name,
-                   "Begin the heading with this: a number or a pseudonym")
-      ->option_text("TEXT");
-  command->add_option("--note", options->labels.note, "Put this under the result")->option_text("TEXT");
-  command
-      ->add_option("--date", options->labels.date,
-                   "Put this date into the heading; none is taken from the clock")
-      ->option_text("TEXT");
+  add_value(*command, "--out", options->out, "FILE", "Write the page to this file, .html")->required();
+  add_value(*command, "--title", options->title, "TEXT (the joint's name)", "Put this heading on the page");
+  add_value(*command, "--case", options->labels.case_name, "TEXT",
+            "Begin the heading with this: a number or a pseudonym");
+  add_value(*command, "--note", options->labels.note, "TEXT", "Put this under the result");
+  add_value(*command, "--date", options->labels.date, "TEXT",
+            "Put this date into the heading; none is taken from the clock");
   command->add_flag("--paths", options->labels.whole_paths,
                     "Name files by their paths as given, not only by their names");
-  command
-      ->add_option("--motion", options->motion,
-                   "Show the frames of this recorded motion, .mot, .sto or .csv, and their curves")
-      ->option_text("FILE");
-  command->add_flag_callback(
-      "--load", [options] { options->with_pressure = true; },
+  add_value(*command, "--motion", options->motion, "FILE",
+            "Show the frames of this recorded motion, .mot, .sto or .csv, and their curves");
+  add_flag(
+      *command, "--load", options->with_pressure, true,
       "Show pressure too, with the layers of the joint file: as a colour in any pose, and with --motion in "
       "its curves");
   CLI::Option* sweep =
-      command
-          ->add_option("--sweep", options->sweep,
-                       "Show which values of one or two parameters of parts leave all targets free, as "
-                       "condyle sweep --vary does: \"cup.inclination=30:60:5 cup.anteversion=0:40:5\"")
-          ->option_text("PART.PARAMETER=FIRST:LAST:STEP ...");
-  CLI::Option* targets = command
-                             ->add_option("--targets", options->targets,
-                                          "With --sweep: a CSV file with a row for each motion that must be "
-                                          "free, as condyle sweep takes it")
-                             ->option_text("FILE")
+      add_value(*command, "--sweep", options->sweep, "PART.PARAMETER=FIRST:LAST:STEP ...",
+                "Show which values of one or two parameters of parts leave all targets free, as "
+                "condyle sweep --vary does: \"cup.inclination=30:60:5 cup.anteversion=0:40:5\"");
+  CLI::Option* targets = add_value(*command, "--targets", options->targets, "FILE",
+                                   "With --sweep: a CSV file with a row for each motion that must be "
+                                   "free, as condyle sweep takes it")
                              ->needs(sweep);
   sweep->needs(targets);
   command->add_flag("--measures", options->measures,
                     "Show the shape of a hip too, as condyle measure does, with bands if --band says so");
   CLI::Option* resect =
-      command
-          ->add_option("--resect", options->cut.targets,
-                       "Show the joint without the bone that must go for these motions to reach this far, as "
-                       "condyle resect --reach does: \"flexion=115 fadir=+10\"")
-          ->option_text("MOTION=DEG ...");
+      add_value(*command, "--resect", options->cut.targets, "MOTION=DEG ...",
+                "Show the joint without the bone that must go for these motions to reach this far, as "
+                "condyle resect --reach does: \"flexion=115 fadir=+10\"");
   add_cut(*command, options->cut, resect);
   add_confidence(*command, options->cut)->excludes(command->get_option("--margin"))->needs(resect);
   add_curve(*command, options->curve_points)->needs(resect);

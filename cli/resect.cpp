@@ -1,9 +1,9 @@
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "io/mesh/vertex_marks.hpp"
@@ -70,23 +70,18 @@ void add_resect(CLI::App& app) {
   options->range.band.samples = BandRequest{}.samples;
   add_joint(*command, *options);
   CLI::Option* reach =
-      command
-          ->add_option("--reach", options->cut.targets,
-                       "How far each motion shall go from its start, by its name in condyle rom "
-                       "--list-motions: \"flexion=115 fadir=30\"; with a plus how far beyond its limit now: "
-                       "\"fadir=+10\"")
-          ->option_text("MOTION=DEG ...")
+      add_value(*command, "--reach", options->cut.targets, "MOTION=DEG ...",
+                "How far each motion shall go from its start, by its name in condyle rom "
+                "--list-motions: \"flexion=115 fadir=30\"; with a plus how far beyond its limit now: "
+                "\"fadir=+10\"")
           ->required();
   add_cut(*command, options->cut, reach);
   add_confidence(*command, options->cut)->excludes(command->get_option("--margin"));
-  command
-      ->add_option(
-          "--protect", options->protect_mobile,
-          "Keep these vertices of the moving body: a file with a line for each vertex of its mesh, 1 to keep "
-          "it and 0 if it may go")
-      ->option_text("FILE");
-  command->add_option("--protect-fixed", options->protect_fixed, "The same for the fixed body")
-      ->option_text("FILE");
+  add_value(
+      *command, "--protect", options->protect_mobile, "FILE",
+      "Keep these vertices of the moving body: a file with a line for each vertex of its mesh, 1 to keep "
+      "it and 0 if it may go");
+  add_value(*command, "--protect-fixed", options->protect_fixed, "FILE", "The same for the fixed body");
   add_curve(*command, options->curve_points);
   add_band(*command, options->range, 0);
   add_bearing(*command, options->range);

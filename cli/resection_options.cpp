@@ -2,9 +2,8 @@
 
 #include <CLI/App.hpp>
 #include <CLI/CLI.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 
+#include "choice.hpp"
 #include "condyle/error.hpp"
 #include "whole_number.hpp"
 
@@ -49,11 +48,9 @@ void add_cut(CLI::App& command, ResectionArguments& given, CLI::Option* targets)
 }
 
 CLI::Option* add_confidence(CLI::App& command, ResectionArguments& given) {
-  return command
-      .add_option("--confidence", given.confidence,
-                  "Plan with the margin with which each target is reached in this share of the varied "
-                  "joints of the band, above 0 and below 1")
-      ->option_text("SHARE (0.5)");
+  return add_value(command, "--confidence", given.confidence, "SHARE (0.5)",
+                   "Plan with the margin with which each target is reached in this share of the varied "
+                   "joints of the band, above 0 and below 1");
 }
 
 std::optional<double> confidence_of(const ResectionArguments& given,
@@ -65,10 +62,8 @@ std::optional<double> confidence_of(const ResectionArguments& given,
 }
 
 CLI::Option* add_curve(CLI::App& command, std::size_t& points) {
-  return command
-      .add_option("--curve", points,
-                  "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
-      ->option_text("N (10)")
+  return add_value(command, "--curve", points, "N (10)",
+                   "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
       ->check(whole_number(0, 1000));
 }
 

@@ -1,17 +1,12 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "condyle/answer/resection.hpp"
 #include "help_formatter.hpp"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 /// Options on the bone that must go, shared by the commands that plan it.
 

@@ -91,9 +91,9 @@ CLI::Option* add_limits(CLI::App& command, RomArguments& given) {
              "The force of an .osim: CoordinateLimitForce, or CoordinateLinearStopForce of OpenSim 4.6",
              "limit")
       ->needs(write);
-  command.add_option("--model", given.limits.model, "Write a copy of this model, .osim, and no fragment")
-      ->needs(write)
-      ->option_text("FILE");
+  add_value(command, "--model", given.limits.model, "FILE",
+            "Write a copy of this model, .osim, and no fragment")
+      ->needs(write);
   return write;
 }
 
@@ -171,17 +171,15 @@ void add_rom(CLI::App& app) {
   auto options = std::make_shared<RomArguments>();
   add_joint(*command, *options);
   add_motions(*command, options->motions);
-  command->add_flag_callback(
-      "--list-motions", [options] { options->task = Task::list_motions; },
-      "Print the motions that the joint has, with their angles, and end");
+  add_flag(*command, "--list-motions", options->task, Task::list_motions,
+           "Print the motions that the joint has, with their angles, and end");
   auto* map = add_map(*command, options->range);
   auto* translation = add_translation(*command, options->range);
   auto* past = add_past(*command, options->range);
   auto* bearing = add_bearing(*command, options->range);
-  auto* contacts = command->add_flag_callback(
-      "--exclude-reference-contacts",
-      [options] { options->reference_contacts = ReferenceContacts::leave_out; },
-      "Ignore triangles that are in contact in the reference pose");
+  auto* contacts =
+      add_flag(*command, "--exclude-reference-contacts", options->reference_contacts,
+               ReferenceContacts::leave_out, "Ignore triangles that are in contact in the reference pose");
   auto* depth =
       command->add_option("--allow-depth", options->allow_depth_mm,
                           "End a motion where the radial depth exceeds this, for meshes that overlap in "

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 #include "answer.hpp"
@@ -84,7 +83,7 @@ void add_angle(CLI::App& app, const char* name, Angle& angle, const char* help) 
 }
 
 void add_length(CLI::App& app, const char* name, double& length, const char* help) {
-  app.add_option(name, length, help)->option_text(fmt::format("MM ({:g})", length));
+  add_value(app, name, length, fmt::format("MM ({:g})", length), help);
 }
 
 /// Two counts that are given together or not at all, in place of a scenario.
@@ -98,14 +97,12 @@ void add_resolution(CLI::App& command, int& scenario, int first, const char* hel
   scenario = first;
   const int last = first + 3;
   auto* by_scenario =
-      command.add_option("--scenario", scenario, help)
-          ->check(whole_number(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last)))
-          ->option_text(fmt::format("{}..{} ({})", first, last, first));
+      add_value(command, "--scenario", scenario, fmt::format("{}..{} ({})", first, last, first), help)
+          ->check(whole_number(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last)));
   const auto add_count = [&](const Count& count) {
-    return command.add_option(count.option, count.triangles, "Make exactly this many triangles instead")
+    return add_value(command, count.option, count.triangles, "N", "Make exactly this many triangles instead")
         ->check(whole_number(1))
-        ->excludes(by_scenario)
-        ->option_text("N");
+        ->excludes(by_scenario);
   };
   auto *of_mobile = add_count(mobile), *of_fixed = add_count(fixed);
   of_mobile->needs(of_fixed);
@@ -155,10 +152,8 @@ void add_sample_hip(CLI::App& sample) {
                  "next one four times as many",
                  {"--hip-bone-triangles", options->hip_bone_triangles},
                  {"--femur-triangles", options->femur_triangles});
-  command
-      ->add_option("--voxel", options->voxel_mm,
-                   "Write labels.nii.gz too: a label map of both bones with voxels so wide, for condyle init")
-      ->option_text("MM");
+  add_value(*command, "--voxel", options->voxel_mm, "MM",
+            "Write labels.nii.gz too: a label map of both bones with voxels so wide, for condyle init");
   add_choice(*command, "--side", options->side, {{"right", Side::right}, {"left", Side::left}},
              "The side of the body. A left hip is the right one mirrored", "right");
   add_measures(*command, options->hip);
@@ -225,18 +220,15 @@ void add_cohort(CLI::App& sample) {
       "Distributions are in cohort.json. Hip k of a seed is the same for any n.");
   auto options = std::make_shared<CohortOptions>();
   add_out(*command, options->out, "Write cohort.csv and cohort.json into this folder")->required();
-  command->add_option("--n", options->cohort.n, "Draw this many hips")
+  add_value(*command, "--n", options->cohort.n, "N", "Draw this many hips")
       ->required()
-      ->check(whole_number(0))
-      ->option_text("N");
-  command->add_option("--seed", options->cohort.seed, "The seed of the draws")
-      ->check(seed_number())
-      ->option_text("N (1)");
-  command->add_option("--scenario", options->scenario, "How fine the meshes are, as in condyle sample hip")
-      ->check(whole_number(1, 4))
-      ->option_text("1..4 (1)");
-  command->add_flag_callback(
-      "--meshes", [options] { options->cohort.meshes = io::CohortMeshes::in_files; },
+      ->check(whole_number(0));
+  add_value(*command, "--seed", options->cohort.seed, "N (1)", "The seed of the draws")->check(seed_number());
+  add_value(*command, "--scenario", options->scenario, "1..4 (1)",
+            "How fine the meshes are, as in condyle sample hip")
+      ->check(whole_number(1, 4));
+  add_flag(
+      *command, "--meshes", options->cohort.meshes, io::CohortMeshes::in_files,
       "Write meshes and joint file of each hip too. Without them a study makes each hip from its measures");
   command->callback([options] { sample_command(*options); });
 }

@@ -10,7 +10,6 @@
 #include "answer.hpp"
 #include "choice.hpp"
 #include "command_line.hpp"
-#include "condyle/error.hpp"
 #include "condyle/sample/hip.hpp"
 #include "help_formatter.hpp"
 #include "implant_options.hpp"
@@ -75,9 +74,9 @@ void add_replacement(CLI::App& sample) {
   add_definition(*command, options->given);
   add_choice(*command, "--bones", options->bones, {{"sample", Bones::sample}, {"none", Bones::none}},
              "Bones around the implant: the sample hip with its usual measures, or none", "sample");
-  command->add_option("--scenario", options->scenario, "How fine the bones are, as in condyle sample hip")
-      ->check(whole_number(1, 4))
-      ->option_text("1..4 (1)");
+  add_value(*command, "--scenario", options->scenario, "1..4 (1)",
+            "How fine the bones are, as in condyle sample hip")
+      ->check(whole_number(1, 4));
   const std::vector<std::string> sizes = add_sizes(*command, options->given);
   group_help(*command, {{"Most used", {"--out", "--side", "--bones", "--definition"}},
                         {"Sizes", sizes},

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <string>
 
 #include "answer.hpp"
+#include "choice.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
@@ -107,11 +106,9 @@ void add_study(CLI::App& app) {
           "Write limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and study.json into this "
           "folder")
       ->required();
-  command
-      ->add_option(
-          "--shard", options->shard,
-          "Answer only part i of N of the table, into FOLDER/shards. condyle merge puts the parts together")
-      ->option_text("i/N");
+  add_value(
+      *command, "--shard", options->shard, "i/N",
+      "Answer only part i of N of the table, into FOLDER/shards. condyle merge puts the parts together");
   add_crate(*command, options->crate_date);
   add_motions(*command, options->motions);
   add_anatomy(*command, options->anatomy, "The joint of all rows of the table", "hip");
@@ -121,37 +118,30 @@ void add_study(CLI::App& app) {
                     "Ignore triangles that are in contact in the reference pose");
   add_accept(*command, options->range);
   add_band(*command, options->range);
-  command
-      ->add_option("--depth", options->depth,
-                   "Compute how deep the bodies are in each other in this pose too, such as \"flexion=90 "
-                   "internal_rotation=30\"")
-      ->option_text("POSE");
+  add_value(*command, "--depth", options->depth, "POSE",
+            "Compute how deep the bodies are in each other in this pose too, such as \"flexion=90 "
+            "internal_rotation=30\"");
   command->add_flag(
       "--measures", options->measures,
       "Measure the shape of each hip too, as condyle measure does, with bands if --band says so; the "
       "pelvis is tilted forwards by the table's column pelvic_tilt_deg");
   CLI::Option* resect =
-      command
-          ->add_option("--resect", options->cut.targets,
-                       "Find the bone that must go for these motions to reach this far, as condyle resect "
-                       "--reach does: \"flexion=115 fadir=+10\"")
-          ->option_text("MOTION=DEG ...");
+      add_value(*command, "--resect", options->cut.targets, "MOTION=DEG ...",
+                "Find the bone that must go for these motions to reach this far, as condyle resect "
+                "--reach does: \"flexion=115 fadir=+10\"");
   add_cut(*command, options->cut, resect);
-  command
-      ->add_option("--load", options->load.pose,
-                   "Compute contact pressure in this pose too (\"\" is the reference pose), with the layers "
-                   "of the joint "
-                   "files or those of --e, --nu and --thickness")
-      ->option_text("POSE");
+  add_value(*command, "--load", options->load.pose, "POSE",
+            "Compute contact pressure in this pose too (\"\" is the reference pose), with the layers "
+            "of the joint "
+            "files or those of --e, --nu and --thickness");
   command->add_flag(
       "--follow-load", options->follows_load,
       "Do not hold the centre of free joints: at each angle the contact carries --force. Limits are then "
       "bounded, not exact");
   add_study_load(*command, options->load, "With --load or --follow-load: ");
-  command->add_flag_callback(
-      "--strict", [options] { options->bad_joint = io::BadJoint::ends_run; },
-      "End the run, and write nothing, at a joint that cannot be answered or with which something looks "
-      "wrong (exit code 4)");
+  add_flag(*command, "--strict", options->bad_joint, io::BadJoint::ends_run,
+           "End the run, and write nothing, at a joint that cannot be answered or with which something looks "
+           "wrong (exit code 4)");
   group_help(*command, {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
                         {"Question",
                          {"--anatomy", "--vary", "--depth", "--measures", "--resect", "--load",

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <string>
 
 #include "answer.hpp"
+#include "choice.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
@@ -66,13 +65,10 @@ void add_surface(CLI::App& app) {
   auto options = std::make_shared<SurfaceArguments>();
   command->add_option("LABELS", options->image, "A label map: .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha, .mhd")
       ->required();
-  command
-      ->add_option("--label", options->label,
-                   "The label of the bone: its number, or its name if the file or --task has names. Without "
-                   "it the only label")
-      ->option_text("LABEL");
-  command->add_option("-o,--out", options->out, "Write the surface here, .ply or .vtp; required")
-      ->option_text("FILE");
+  add_value(*command, "--label", options->label, "LABEL",
+            "The label of the bone: its number, or its name if the file or --task has names. Without "
+            "it the only label");
+  add_value(*command, "-o,--out", options->out, "FILE", "Write the surface here, .ply or .vtp; required");
   add_json(*command, options->form);
   add_label_surface(*command, options->labels);
   add_label_file(*command, options->labels);

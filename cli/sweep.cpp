@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -108,22 +107,16 @@ void add_sweep(CLI::App& app) {
       "together.");
   auto options = std::make_shared<SweepArguments>();
   add_joint(*command, *options, "The joint file, .toml, with [[part]]");
-  command
-      ->add_option(
-          "--vary", options->vary,
-          "One to four parameters with their first and last value and a step: \"cup.inclination=30:50:1 "
-          "cup.anteversion=0:30:1\"")
-      ->required()
-      ->option_text("PART.PARAMETER=FIRST:LAST:STEP ...");
-  command
-      ->add_option(
-          "--targets", options->targets,
-          "A CSV file with a row for each motion that must be free: name, motion (or start and movement), "
-          "reach_deg, pelvic_tilt_deg of the posture, and weight, by which its margin is divided where the "
-          "best "
-          "design is chosen")
-      ->required()
-      ->option_text("FILE");
+  add_value(*command, "--vary", options->vary, "PART.PARAMETER=FIRST:LAST:STEP ...",
+            "One to four parameters with their first and last value and a step: \"cup.inclination=30:50:1 "
+            "cup.anteversion=0:30:1\"")
+      ->required();
+  add_value(*command, "--targets", options->targets, "FILE",
+            "A CSV file with a row for each motion that must be free: name, motion (or start and movement), "
+            "reach_deg, pelvic_tilt_deg of the posture, and weight, by which its margin is divided where the "
+            "best "
+            "design is chosen")
+      ->required();
   add_out(*command, options->out,
           "Write sweep.json, designs.csv, safe.csv and zone.vtp into this folder. python3 -m condyle.plot "
           "FOLDER draws them");
@@ -131,24 +124,18 @@ void add_sweep(CLI::App& app) {
              {{"largest-margin", BestDesign::largest_margin}, {"least-change", BestDesign::least_change}},
              "Call the design best that leaves most margin, or the safe one nearest to the joint as it is",
              "largest-margin");
-  command
-      ->add_option("--shard", options->shard,
-                   "Compute only part i of N of the designs, into FOLDER/shards. condyle merge puts the "
-                   "parts together")
-      ->option_text("i/N");
-  command
-      ->add_option("--measures", options->measures,
-                   "Measure the shape of each design's hip too, by keys of condyle measure: "
-                   "centre_edge_lateral_section_deg,...")
+  add_value(*command, "--shard", options->shard, "i/N",
+            "Compute only part i of N of the designs, into FOLDER/shards. condyle merge puts the "
+            "parts together");
+  add_value(*command, "--measures", options->measures, "KEY[,KEY...]",
+            "Measure the shape of each design's hip too, by keys of condyle measure: "
+            "centre_edge_lateral_section_deg,...")
       ->expected(1)
-      ->take_all()
-      ->option_text("KEY[,KEY...]");
-  command
-      ->add_option("--load", options->load.pose,
-                   "Compute contact pressure of each design in this pose too (\"\" is the reference pose), "
-                   "with the layers "
-                   "of the joint file or those of --e, --nu and --thickness")
-      ->option_text("POSE");
+      ->take_all();
+  add_value(*command, "--load", options->load.pose, "POSE",
+            "Compute contact pressure of each design in this pose too (\"\" is the reference pose), "
+            "with the layers "
+            "of the joint file or those of --e, --nu and --thickness");
   add_study_load(*command, options->load, "With --load: ");
   add_band(*command, options->range);
   add_bearing(*command, options->range);

@@ -168,9 +168,7 @@ CLI::App* add_two_meshes(CLI::App& app, const char* name, const char* help, TwoM
   auto* pose = command->add_option("--pose", options.pose,
                                    "Place B in the frame of A by this matrix, 16 numbers row by row");
   pose->option_text("MATRIX (as the files have it)");
-  command->add_option("--matrix", options.matrix, "Read that matrix from this file")
-      ->excludes(pose)
-      ->option_text("FILE");
+  add_value(*command, "--matrix", options.matrix, "FILE", "Read that matrix from this file")->excludes(pose);
   add_choice(*command, "--units", options.units,
              {{"mm", LengthUnit::millimetres},
               {"cm", LengthUnit::centimetres},
@@ -196,25 +194,19 @@ void add_touch(CLI::App& app) {
       "         condyle touch sample/hip_bone.ply sample/femur.ply --pose \"1 0 0 2  0 1 0 0  0 0 1 1  0 0 0 "
       "1\"\n"
       "         condyle touch sample/hip_bone.ply sample/femur.ply --measures --along 0 -1 0");
-  command
-      ->add_option("--along", options->along,
-                   "How far B moves along this direction until it is free; any number of directions")
+  add_value(*command, "--along", options->along, "X Y Z ... (with --measures both ways along x, y and z)",
+            "How far B moves along this direction until it is free; any number of directions")
       ->expected(3)
-      ->take_all()
-      ->option_text("X Y Z ... (with --measures both ways along x, y and z)");
-  command
-      ->add_option("--centre", options->from,
-                   "Measure the depth along rays from this joint centre too, as condyle depth does")
-      ->expected(3)
-      ->option_text("X Y Z");
-  command->add_flag_callback(
-      "--measures", [options] { options->measures = TouchMeasures::all; },
-      "Compute penetration volume and areas too, which takes longer than the rest");
+      ->take_all();
+  add_value(*command, "--centre", options->from, "X Y Z",
+            "Measure the depth along rays from this joint centre too, as condyle depth does")
+      ->expected(3);
+  add_flag(*command, "--measures", options->measures, TouchMeasures::all,
+           "Compute penetration volume and areas too, which takes longer than the rest");
   add_out(*command, options->out, "Write touch.json, fixed.vtp, mobile.vtp and place.vtp into this folder");
-  command->add_option("--picture", options->picture, "Draw both meshes and what meets into this file, .png")
-      ->option_text("FILE");
-  command->add_flag_callback(
-      "--ascii", [options] { options->vtp_encoding = io::VtpEncoding::text; }, "Write VTP files as text");
+  add_value(*command, "--picture", options->picture, "FILE",
+            "Draw both meshes and what meets into this file, .png");
+  add_flag(*command, "--ascii", options->vtp_encoding, io::VtpEncoding::text, "Write VTP files as text");
   group_help(*command, {{"Most used", {"--pose", "--measures", "--along", "--centre", "--out", "--json"}},
                         {"Meshes", {"--matrix", "--units", "--polygons", "--repair", "--strict"}},
                         {"Output", {"--picture", "--ascii", "--help"}}});
@@ -229,13 +221,12 @@ void add_turn(CLI::App& app) {
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle turn sample/hip_bone.ply sample/femur.ply --axis 0 0 1");
-  command->add_option("--axis", options->axis, "Direction of the axis in the frame of A; of any length")
+  add_value(*command, "--axis", options->axis, "X Y Z",
+            "Direction of the axis in the frame of A; of any length")
       ->expected(3)
-      ->required()
-      ->option_text("X Y Z");
-  command->add_option("--centre", options->centre, "A point on the axis, in mm")
-      ->expected(3)
-      ->option_text("X Y Z (0 0 0)");
+      ->required();
+  add_value(*command, "--centre", options->centre, "X Y Z (0 0 0)", "A point on the axis, in mm")
+      ->expected(3);
   group_help(*command, {{"Most used", {"--axis", "--centre", "--pose", "--json"}},
                         {"Meshes", {"--matrix", "--units", "--polygons", "--repair", "--strict"}},
                         {"Output", {"--help"}}});
@@ -249,10 +240,9 @@ void add_slide(CLI::App& app) {
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle slide sample/hip_bone.ply sample/femur.ply --along 1 0 0");
-  command->add_option("--along", options->along, "The direction in the frame of A; of any length")
+  add_value(*command, "--along", options->along, "X Y Z", "The direction in the frame of A; of any length")
       ->expected(3)
-      ->required()
-      ->option_text("X Y Z");
+      ->required();
   group_help(*command, {{"Most used", {"--along", "--pose", "--json"}},
                         {"Meshes", {"--matrix", "--units", "--polygons", "--repair", "--strict"}},
                         {"Output", {"--help"}}});
