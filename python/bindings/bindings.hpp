@@ -15,6 +15,8 @@ auto without_lock(const Work& work) {
   return work();
 }
 
+/// The library's exceptions as Python's.
+void bind_errors(py::module_& module);
 void bind_mesh(py::module_& module);
 void bind_inspect(py::module_& module);
 void bind_fit(py::module_& module);

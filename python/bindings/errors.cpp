@@ -1,5 +1,4 @@
-#include "errors.hpp"
-
+#include "bindings.hpp"
 #include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 

@@ -17,8 +17,6 @@
 #include "io/mesh/polygon_rule.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/scope_text.hpp"
-#include "joint_description.hpp"
-#include "joint_state.hpp"
 
 namespace condyle::python {
 namespace {

@@ -1,4 +1,4 @@
-#include "joint_description.hpp"
+#include "joint.hpp"
 
 #include <string>
 

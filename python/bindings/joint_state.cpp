@@ -1,4 +1,4 @@
-#include "joint_state.hpp"
+#include "joint.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
 #include "interrupts.hpp"
-#include "io/result/measure_object.hpp"
+#include "io/result/json_objects.hpp"
 #include "json_object.hpp"
 #include "range_answer.hpp"
 

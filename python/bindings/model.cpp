@@ -3,7 +3,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/mesh/polygon_rule.hpp"

@@ -2,7 +2,6 @@
 
 #include "bindings.hpp"
 #include "condyle/version.hpp"
-#include "errors.hpp"
 
 namespace condyle::python {
 namespace {

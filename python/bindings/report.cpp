@@ -12,12 +12,19 @@
 #include "io/file/input_recorder.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "range_answer.hpp"
-#include "report_labels.hpp"
 #include "resection.hpp"
-#include "sweep.hpp"
 
 namespace condyle::python {
 namespace {
+
+/// Case, note, date, and whether files are named by their whole paths.
+using LabelArguments =
+    std::tuple<std::optional<std::string>, std::optional<std::string>, std::optional<std::string>, bool>;
+
+io::ReportLabels report_labels_of(const LabelArguments& given) {
+  const auto& [case_name, note, date, whole_paths] = given;
+  return {case_name, note, date, whole_paths};
+}
 
 /// Nothing where the joint was made of arrays: there are no files to name.
 std::optional<io::Provenance> files_of(const io::LoadedJoint& loaded, const char* by) {

@@ -6,7 +6,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/error.hpp"
 #include "condyle/radial.hpp"
 #include "condyle/tangential.hpp"
 #include "vertex_gaps.hpp"

@@ -1,7 +1,5 @@
 #include "io/file/compressed.hpp"
 
-#include <iterator>
-
 namespace condyle::io {
 
 std::string_view packed_by(std::string_view bytes) noexcept {

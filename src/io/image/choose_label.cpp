@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
-#include <functional>
 #include <iterator>
 #include <set>
 #include <span>

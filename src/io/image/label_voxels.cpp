@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <limits>
 
 #include "condyle/io/label_file.hpp"
 

@@ -3,8 +3,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <span>
-#include <string_view>
 
 #include "io/image/byte_stream.hpp"
 

@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <string>
 
 #include "condyle/io/label_file.hpp"
 #include "io/file/number_type.hpp"

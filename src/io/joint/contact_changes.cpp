@@ -1,7 +1,6 @@
 #include "condyle/io/joint_file.hpp"
 
 #include <cstddef>
-#include <utility>
 
 namespace condyle::io {
 namespace {

@@ -10,7 +10,6 @@
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/read_pair.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/joint/append_mesh.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/mesh/polygon_rule.hpp"
 #include "io/motion/column_zero.hpp"
@@ -19,6 +18,13 @@
 
 namespace condyle::io {
 namespace {
+
+/// Appends a mesh to those before it.
+void append_mesh(TriMesh& whole, const TriMesh& mesh) {
+  const auto first = static_cast<Index>(whole.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) whole.vertices.push_back(mesh.vertices[v]);
+  for (const auto& [a, b, c] : mesh.triangles) whole.triangles.push_back({a + first, b + first, c + first});
+}
 
 /// A mesh of a body, and what became of it.
 struct LoadedMesh {
@@ -122,7 +128,7 @@ LoadedBody load(const BodyEntry& entry, BodyRole body, bool is_cut, const JointF
     LoadedMesh one = load(entry.meshes[i], fmt::format("{}.meshes[{}]", key, i), joint, body);
     parts.push_back({one.report.part, whole.vertices.size(), one.report.vertices, whole.triangles.size(),
                      one.report.triangles, entry.meshes[i].contact});
-    io::append_mesh(whole, one.mesh);
+    append_mesh(whole, one.mesh);
     reports.push_back(std::move(one.report));
     files += (files.empty() ? "" : " + ") + entry.meshes[i].mesh.string();
   }

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
-#include <vector>
 
 #include "condyle/io/recorded_motion.hpp"
 #include "io/joint/coordinate_name.hpp"

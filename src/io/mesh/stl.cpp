@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <limits>
 
 #include "io/mesh/parse.hpp"
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>

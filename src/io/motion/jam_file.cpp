@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "condyle/error.hpp"
 #include "io/file/h5_image.hpp"

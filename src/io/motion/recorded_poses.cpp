@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <numbers>
 
 #include "condyle/hip_measures.hpp"

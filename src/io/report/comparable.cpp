@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "condyle/error.hpp"
-#include "condyle/io/pose_text.hpp"
 #include "io/report/report.hpp"
 
 namespace condyle::io {

@@ -15,14 +15,13 @@
 #include "io/report/before_json.hpp"
 #include "io/report/block_arrays.hpp"
 #include "io/report/joint_object.hpp"
-#include "io/report/plan_json.hpp"
 #include "io/report/recorded_frames.hpp"
 #include "io/report/shown_end.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/report/sweep_block.hpp"
 #include "io/result/json.hpp"
+#include "io/result/json_objects.hpp"
 #include "io/result/map_result.hpp"
-#include "io/result/measure_object.hpp"
 
 namespace condyle::io {
 namespace {

@@ -1,5 +1,6 @@
 #include "io/report/surfaces_json.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -7,6 +8,7 @@
 
 #include "io/joint/given_degrees.hpp"
 #include "io/result/contact_terms.hpp"
+#include "io/result/json_objects.hpp"
 
 namespace condyle::io {
 namespace {
@@ -29,6 +31,21 @@ Json layer_json(const Body& body, const std::string& part, const std::optional<c
       arrays.add(role + "_thickness", everywhere ? std::vector<double>(run.vertices, *everywhere)
                                                  : std::get<std::vector<double>>(layer->thickness_mm));
   return json;
+}
+
+Json lowered_json(const plan::CutBone& cut, const std::string& role, BlockArrays& arrays) {
+  std::vector<std::uint32_t> lowered;
+  std::vector<double> before, depth_mm;
+  for (std::uint32_t v = 0; v < cut.depth_mm.size(); ++v) {
+    if (cut.depth_mm[v] == 0) continue;
+    lowered.push_back(v);
+    depth_mm.push_back(cut.depth_mm[v]);
+    const Vec3 p = cut.before.vertices[v];
+    before.insert(before.end(), {p.x(), p.y(), p.z()});
+  }
+  return {{"lowered", arrays.add(role + "_lowered", lowered)},
+          {"before", arrays.add(role + "_before", before)},
+          {"depth_mm", arrays.add(role + "_depth", depth_mm)}};
 }
 
 }  // namespace
@@ -54,6 +71,18 @@ Json layers_json(const ReportedLayers& layers, const Joint& joint, BlockArrays& 
           {"reach_mm", options.rays.reach_mm},
           {"fixed", layer_json(joint.fixed, contact.fixed_part, options.fixed, "fixed", arrays)},
           {"mobile", layer_json(joint.mobile, contact.mobile_part, options.mobile, "mobile", arrays)}};
+}
+
+Json plan_json(const ResectionResult& plan, BlockArrays& arrays) {
+  Json json = resection_object(plan);
+  // The page has these of the joint.
+  for (const char* key : {"condyle", "joint", "fixed", "mobile", "side", "notes", "scope", "provenance"})
+    json.erase(key);
+  const plan::Resection& resection = plan.answer.resection;
+  json["surfaces"] = {
+      {"fixed", resection.fixed ? lowered_json(*resection.fixed, "fixed", arrays) : Json(nullptr)},
+      {"mobile", resection.mobile ? lowered_json(*resection.mobile, "mobile", arrays) : Json(nullptr)}};
+  return json;
 }
 
 }  // namespace condyle::io

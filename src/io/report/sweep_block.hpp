@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "io/report/block_arrays.hpp"
 #include "io/sweep/sweep_result.hpp"
 

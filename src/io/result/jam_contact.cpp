@@ -3,7 +3,7 @@
 #include <cctype>
 #include <limits>
 
-#include "io/joint/recorded_motion_table.hpp"
+#include "io/joint/coordinate_name.hpp"
 #include "io/result/coordinate_at.hpp"
 
 namespace condyle::io {

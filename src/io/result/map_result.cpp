@@ -7,7 +7,6 @@
 #include "io/joint/grid_text.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/movement_words.hpp"
-#include "io/result/rom_result.hpp"
 
 namespace condyle::io {
 namespace {

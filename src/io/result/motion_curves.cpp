@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "condyle/io/pose_text.hpp"
-#include "io/joint/recorded_motion_table.hpp"
+#include "io/joint/coordinate_name.hpp"
 #include "io/result/coordinate_at.hpp"
 #include "io/result/motion_result.hpp"
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "core/counted.hpp"
 #include "core/rounded.hpp"

@@ -16,11 +16,10 @@
 #include "io/joint/settings_lines.hpp"
 #include "io/result/clock_text.hpp"
 #include "io/result/json.hpp"
+#include "io/result/json_objects.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/quoted_limit.hpp"
-#include "io/result/resection_object.hpp"
-#include "io/result/rom_result.hpp"
 #include "io/result/scope_text.hpp"
 #include "io/result/text_table.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "answer/records/limit_box_record.hpp"
 #include "condyle/answer/range.hpp"

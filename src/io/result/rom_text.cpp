@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,13 +13,10 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
 #include "core/rounded.hpp"
-#include "io/file/format_version.hpp"
 #include "io/result/clock_text.hpp"
 #include "io/result/json.hpp"
 #include "io/result/limit_files.hpp"
-#include "io/result/living_text.hpp"
 #include "io/result/map_result.hpp"
-#include "io/result/motion_groups.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/quoted_limit.hpp"
 #include "io/result/rom_parts.hpp"
@@ -134,6 +130,26 @@ const motion::ContactWitness* soft_contact_of(const motion::MotionLimit& limit) 
   return soft && soft->contact ? &*soft->contact : nullptr;
 }
 
+/// Names of motions under a heading each, in the order of their first ones: a line per heading.
+class MotionGroups {
+ public:
+  void add(const std::string& heading, std::string motion) {
+    const auto same = std::find_if(groups_.begin(), groups_.end(),
+                                   [&](const auto& group) { return group.first == heading; });
+    (same == groups_.end() ? groups_.emplace_back(heading, std::vector<std::string>()) : *same)
+        .second.push_back(std::move(motion));
+  }
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (const auto& [heading, motions] : groups_)
+      text += fmt::format("    {}: {}\n", heading, fmt::join(motions, ", "));
+    return text;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups_;
+};
+
 /// Which meshes met in which motions, if a body has several.
 std::string met_text(const RomResult& result, std::string_view heading, ContactOf contact_of) {
   const Joint& joint = result.joint;
@@ -243,6 +259,29 @@ std::string caveat_text(const RomResult& result, TextForm form) {
   return caveats.text().empty()
              ? ""
              : wrapped(fmt::format("  {}{}more: --verbose\n", text, text.empty() ? "" : "; "));
+}
+
+/// What the words in the column of living hips mean, and as a whole which motions soft tissue ends first; empty if nothing is known.
+std::string living_text(const RomResult& result, TextForm form) {
+  int hips = 0;
+  bool any_people = false;
+  std::string far_off;
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
+    const auto living = living_limit(result.answer, i);
+    if (!living) continue;
+    if (living->expected) hips = living->gap->hips;
+    any_people |= living->people && !living->expected;
+    if (living->gap && living->gap->closeness != Closeness::close)
+      far_off += (far_off.empty() ? "" : ", ") + result.answer.limits[i].motion.name;
+  }
+  std::string text;
+  if (hips > 0) text += fmt::format("; \"some\": less what soft tissue took in {} cadavers", hips);
+  if (any_people) text += "; means: of other people";
+  if (form == TextForm::whole && !(text + far_off).empty()) text += "; sources by --json";
+  if (!text.empty()) text = "  living hips: " + text.substr(2) + "\n";
+  if (form == TextForm::whole && !far_off.empty())
+    text += "    usually ended by soft tissue before bone: " + far_off + "\n";
+  return wrapped(text);
 }
 
 /// Limits beside those of simulations of bone; in brief those that are as short as with a cam.

@@ -6,7 +6,6 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
-#include "condyle/io/pose_text.hpp"
 #include "condyle/sample/hip.hpp"
 #include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"

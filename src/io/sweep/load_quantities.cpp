@@ -1,7 +1,5 @@
 #include "io/sweep/load_quantities.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
 
 #include "io/file/input_recorder.hpp"

@@ -12,7 +12,6 @@
 #include "condyle/version.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/joint/given_degrees.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/study/json_digest.hpp"
 #include "io/study/study_files.hpp"
