@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, TypedDict
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, TypedDict, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -356,45 +356,38 @@ class RangeOfMotion(HasLimits, Unchanging):
     @property
     def bearing_rule(self) -> BearingRule:
         """Whether bearing contact ends a motion: "count", as it does where no bearing surface is known, or "leave_out"."""
-        rule: BearingRule = self._said["bearing"]["rule"]
-        return rule
+        return cast("BearingRule", self._said["bearing"]["rule"])
 
     @property
     def caveats(self) -> list[str]:
         """What was left out, accepted or held, a sentence each."""
-        caveats: list[str] = self._said["caveats"]
-        return caveats
+        return cast("list[str]", self._said["caveats"])
 
     @property
     def clock_plane(self) -> Optional[ClockPlane]:
         """The plane of the clock of :attr:`MotionLimit.clock_hour`; None for joints other than hips."""
-        plane: Optional[ClockPlane] = self._said["clock_plane"]
-        return plane
+        return cast("Optional[ClockPlane]", self._said["clock_plane"])
 
     @property
     def held_translation_mm(self) -> Optional[list[float]]:
         """The translation that all motions of a free joint keep, x, y and z."""
-        held: Optional[list[float]] = self._said["held_translation_mm"]
-        return held
+        return cast("Optional[list[float]]", self._said["held_translation_mm"])
 
     @property
     def implant(self) -> Optional[ImplantPair]:
         """Of an implant `fixed_part`, `mobile_part`, `half_angle_deg`, `between_axes_deg`, and `why_no_closed_form` where
         :attr:`MotionLimit.closed_form` is None."""
-        pair: Optional[ImplantPair] = self._said.get("implant")
-        return pair
+        return cast("Optional[ImplantPair]", self._said.get("implant"))
 
     @property
     def arcs(self) -> list[MotionArc]:
         """Pairs of `motions` that turn one angle to either side, both ending in contact, and the `arc_deg` between their limits."""
-        arcs: list[MotionArc] = self._said["arcs"]
-        return arcs
+        return cast("list[MotionArc]", self._said["arcs"])
 
     @property
     def normal_range_source(self) -> Optional[str]:
         """Where :attr:`MotionLimit.normal_range_deg` is from; None for joints other than hips."""
-        source: Optional[str] = self._said["normal_range_source"]
-        return source
+        return cast("Optional[str]", self._said["normal_range_source"])
 
     @property
     def scope(self) -> str:
@@ -404,8 +397,7 @@ class RangeOfMotion(HasLimits, Unchanging):
     @property
     def why_no_bearing(self) -> str:
         """Why no bearing surface was found and every contact counts that no mesh's word leaves out; empty where there is one."""
-        why: str = self._said["bearing"].get("why_none", "")
-        return why
+        return cast("str", self._said["bearing"].get("why_none", ""))
 
     @property
     def left_out(self) -> tuple[int, int]:
