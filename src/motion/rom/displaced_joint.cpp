@@ -107,8 +107,12 @@ struct DisplacedJoint::Parts {
                    std::span<DisplacedLimit> out) const {
     const std::optional<Points> fixed = of_fixed.moved_by(d.fixed_surface, d.parameters),
                                 mobile = of_mobile.moved_by(d.mobile_surface, d.parameters);
-    RotatingBody stationary_fixed = of_fixed.body(fixed), stationary_mobile = of_mobile.body(mobile),
-                 rotating_fixed = of_fixed.body(fixed), rotating_mobile = of_mobile.body(mobile);
+    // Only those that a motion turns or lets rest are made.
+    std::optional<RotatingBody> stationary_fixed, stationary_mobile, rotating_fixed, rotating_mobile;
+    const auto made = [](std::optional<RotatingBody>& body, const Surface& of,
+                         const std::optional<Points>& moved) -> RotatingBody& {
+      return body ? *body : body.emplace(of.body(moved));
+    };
 
     const Pose X_FG = displaced_frame(d);
     const Pose A = inverted(X_ref_) * X_FG * X_ref_;
@@ -117,8 +121,10 @@ struct DisplacedJoint::Parts {
     for (const Group& group : groups_) {
       const Pose X_FM = X_FG * pose_at(system_, group.start) * inverted(A);
       const bool turns_fixed = group.vary == JointAngle::internal_rotation;
-      RotatingBody& stationary = turns_fixed ? stationary_mobile : stationary_fixed;
-      RotatingBody& rotating = turns_fixed ? rotating_fixed : rotating_mobile;
+      RotatingBody& stationary =
+          turns_fixed ? made(stationary_mobile, of_mobile, mobile) : made(stationary_fixed, of_fixed, fixed);
+      RotatingBody& rotating =
+          turns_fixed ? made(rotating_fixed, of_fixed, fixed) : made(rotating_mobile, of_mobile, mobile);
       const AxisFrame axis =
           turns_fixed
               ? AxisFrame(A.translation(), A.linear() * -axis_of(group.vary, system_, {}))
