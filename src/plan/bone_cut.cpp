@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
@@ -46,12 +47,18 @@ constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
 constexpr double search_spacing_mm = 1, search_outside_mm = 1;
 
-/// A body without soft meshes and without triangles in the ball; and which triangles of the mesh remain.
+std::vector<Index> all_triangles(const Mesh& mesh) {
+  std::vector<Index> all(mesh.triangles().size());
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
+/// These triangles of a body, without soft meshes and without those in the ball; and which triangles of the mesh remain.
 motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Included& counts,
-                           const std::optional<BearingBall>& ball) {
+                           const std::optional<BearingBall>& ball, const std::vector<Index>& triangles) {
   TriMesh part{mesh.vertices(), {}};
   std::vector<Index> in_whole;
-  for (Index t = 0; t < mesh.triangles().size(); ++t) {
+  for (const Index t : triangles) {
     if (!counts(body, t)) continue;
     if (ball && ball->holds(mesh.corner(t, 0)) && ball->holds(mesh.corner(t, 1)) &&
         ball->holds(mesh.corner(t, 2)))
@@ -100,7 +107,8 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionOptions& 
   const bool cuts_mobile = role_ == BodyRole::mobile;
   const Body& other = cuts_mobile ? joint.fixed : joint.mobile;
   const Included of_other = included(cuts_mobile ? BodyRole::fixed : BodyRole::mobile);
-  const Mesh solid = counted(other, other.mesh, of_other, std::nullopt).mesh;
+  const std::vector<Index> whole = all_triangles(other.mesh);
+  const Mesh solid = counted(other, other.mesh, of_other, std::nullopt, whole).mesh;
   if (!solid.is_closed())
     throw MeshError(other.name + ": its mesh is open, so the bone that it sweeps over cannot be computed");
   if (!bone_.mesh.is_closed())
@@ -109,8 +117,9 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionOptions& 
   mesh::require_oriented(solid, other.name);
   mesh::require_oriented(bone_.mesh, bone_.name);
   const Mesh around = grown(solid, request.margin_mm);
-  const Mesh ending =
-      cuts_mobile ? around : counted(other, grown(other.mesh, request.margin_mm), of_other, ball_).mesh;
+  const Mesh ending = cuts_mobile
+                          ? around
+                          : counted(other, grown(other.mesh, request.margin_mm), of_other, ball_, whole).mesh;
   for (const CutTarget& target : targets_) {
     sweeps_.push_back(std::make_unique<Sweep>(joint, role_, around, target.motion, ball_));
     exact_.push_back(std::make_unique<ExactReach>(joint, role_, ending, target.motion));
@@ -298,10 +307,10 @@ void BoneCut::want_too(const std::vector<Place>& places) {
   refine();
 }
 
-/// All that still meets the other bone. Empty if every target is reached.
-std::vector<Met> BoneCut::what_meets() const {
+/// All of these triangles that still meets the other bone. Empty if every target is reached.
+std::vector<Met> BoneCut::what_meets(const std::vector<Index>& triangles) const {
   const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), included(role_),
-                                          role_ == BodyRole::mobile ? ball_ : std::nullopt);
+                                          role_ == BodyRole::mobile ? ball_ : std::nullopt, triangles);
   const motion::FeatureTree tree(part.mesh);
   std::vector<Met> met;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
@@ -339,12 +348,18 @@ bool BoneCut::may_all_go(const std::vector<Met>& met) {
 /// Lowers the bone that the exact search still finds obstructing. False if the surface must be lowered anew.
 bool BoneCut::correct() {
   const std::vector<SweepTo> sweeps = sweeps_to_reach();
+  const std::vector<Index> all = all_triangles(surface_->body().mesh);
+  std::vector<Index> may_meet = all;
   std::vector<Met> met;
   for (int i = 0; i < most_corrections; ++i) {
-    met = what_meets();
+    met = what_meets(may_meet);
     if (met.empty()) return true;
     if (!may_all_go(met)) return false;
+    const std::vector<CutSurface::Vertex> before = surface_->vertices();
     surface_->lower_met(met, sweeps, (i + 1) * correction_mm);
+    may_meet = surface_->beside_changed(before, met);
+    // Of what is in contact at the start one place only is known.
+    if (met.front().need.from_rad == 0) may_meet = all;
   }
   throw MeshError(bone_.name + ": after " + std::to_string(most_corrections) +
                   " corrections its cut surface still meets the other bone before " +
@@ -458,7 +473,9 @@ Joint BoneCut::joint() const {
     joint.mobile.head = bearing_->head;
   } else if (!joint.mobile.head) {
     // Meshes that bear are not cut, and found again as they are; the head that is stated is the bone's, which is measured.
-    const Mesh ends = counted(joint_.mobile, joint_.mobile.mesh, {true}, std::nullopt).mesh;
+    const Mesh ends =
+        counted(joint_.mobile, joint_.mobile.mesh, {true}, std::nullopt, all_triangles(joint_.mobile.mesh))
+            .mesh;
     if (const auto& head = kinematics::head_near_centre(ends)) joint.mobile.head = head->fit.sphere;
   }
   const auto is_bone = [](const BodyPart& part) { return part.contact == PartContact::ends; };

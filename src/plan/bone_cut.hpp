@@ -76,7 +76,7 @@ class BoneCut {
   std::string fault() const;
   std::string asked(std::size_t target) const;
   bool lower_for_reach();
-  std::vector<Met> what_meets() const;
+  std::vector<Met> what_meets(const std::vector<Index>& triangles) const;
   bool may_all_go(const std::vector<Met>& met);
   bool correct();
   bool finish();

@@ -53,27 +53,40 @@ struct CutSurface::Swept {
 class CutSurface::Deeper {
  public:
   explicit Deeper(const CutSurface& surface)
-      : surface_(surface), by_(surface.vertices_.size(), 0), why_(surface.vertices_.size()) {}
+      : surface_(surface), by_(surface.vertices_.size(), 0), at_least_(by_), why_(surface.vertices_.size()) {}
 
-  /// A point goes down by e if each of its corners that may go does by e w / (w . w), w the weights of these: the least that does it.
   void add(const SurfacePoint& point, double e, const Need& need) {
-    const auto goes = [&](int k) { return point.weights[k] > 0 && surface_.may_go(point.corners[k]); };
-    double squares = 0;
-    for (int k = 0; k < 3; ++k)
-      if (goes(k)) squares += point.weights[k] * point.weights[k];
-    for (int k = 0; k < 3; ++k) {
-      if (!goes(k)) continue;
-      const Index v = point.corners[k];
-      const double by = e * point.weights[k] / squares;
+    visit(point, e, [&](Index v, double by) {
       if (by > by_[v]) by_[v] = by, why_[v] = need;
-    }
+    });
+  }
+  /// A point that add() will get goes down by e at least.
+  void add_later(const SurfacePoint& point, double e) {
+    visit(point, e, [&](Index v, double by) { at_least_[v] = std::max(at_least_[v], by); });
+  }
+  /// Whether a point that goes down by e at most can still be the one that decides for a vertex.
+  bool may_decide(const SurfacePoint& point, double e) const {
+    bool may = false;
+    visit(point, e, [&](Index v, double by) { may = may || by >= at_least_[v]; });
+    return may;
   }
   double by(Index v) const { return by_[v]; }
   const std::optional<Need>& why(Index v) const { return why_[v]; }
 
  private:
+  /// A point goes down by e if each of its corners that may go does by e w / (w . w), w the weights of these: the least that does it.
+  template <class Visit>
+  void visit(const SurfacePoint& point, double e, const Visit& with) const {
+    const auto goes = [&](int k) { return point.weights[k] > 0 && surface_.may_go(point.corners[k]); };
+    double squares = 0;
+    for (int k = 0; k < 3; ++k)
+      if (goes(k)) squares += point.weights[k] * point.weights[k];
+    for (int k = 0; k < 3; ++k)
+      if (goes(k)) with(point.corners[k], e * point.weights[k] / squares);
+  }
+
   const CutSurface& surface_;
-  std::vector<double> by_;
+  std::vector<double> by_, at_least_;
   std::vector<std::optional<Need>> why_;
 };
 
@@ -254,8 +267,10 @@ void CutSurface::lower_overhangs(const std::vector<SweepTo>& sweeps) {
   }
 }
 
+/// With `deeper`, intervals are as long as they are only if they decide there.
 std::vector<CutSurface::Swept> CutSurface::swept_between(const std::vector<Index>& triangles,
-                                                         const std::vector<SweepTo>& sweeps) const {
+                                                         const std::vector<SweepTo>& sweeps,
+                                                         Deeper* deeper) const {
   std::vector<std::array<double, 3>> weights;
   for (int i = 0; i <= lattice; ++i)
     for (int j = 0; i + j <= lattice; ++j)
@@ -267,12 +282,24 @@ std::vector<CutSurface::Swept> CutSurface::swept_between(const std::vector<Index
       for (const auto& w : weights) points.push_back({body_.mesh.triangles()[triangles[i]], w});
     std::vector<Probe> probes;
     for (const SurfacePoint& point : points) probes.push_back(probe_below(point));
-    const std::vector<SweptInterval> found = swept_intervals(probes, sweeps);
+    const auto leave_out = [&](std::vector<std::size_t>& which, const std::vector<SweptInterval>& so_far,
+                               double longer_by) {
+      for (const std::size_t i : which) deeper->add_later(points[i], so_far[i].length);
+      std::erase_if(
+          which, [&](std::size_t i) { return !deeper->may_decide(points[i], so_far[i].length + longer_by); });
+    };
+    const std::vector<SweptInterval> found =
+        swept_intervals(probes, sweeps, deeper ? LeaveOut(leave_out) : LeaveOut());
     for (std::size_t i = 0; i < found.size(); ++i)
       if (found[i].need)
         swept.push_back({points[i], found[i].length, *found[i].need, probes[i].from, probes[i].at(left_mm)});
   }
   return swept;
+}
+
+bool CutSurface::any_may_go(Index triangle) const {
+  const Triangle& corners = body_.mesh.triangles()[triangle];
+  return std::any_of(corners.begin(), corners.end(), [&](Index v) { return may_go(v); });
 }
 
 /// As far inwards as all its free corners may go.
@@ -292,8 +319,11 @@ Probe CutSurface::probe_below(const SurfacePoint& point) const {
 
 std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& triangles,
                                                       const std::vector<SweepTo>& sweeps) {
+  std::vector<Index> lowerable;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(lowerable),
+               [&](Index t) { return any_may_go(t); });
   Deeper deeper(*this);
-  for (const Swept& below : swept_between(triangles, sweeps))
+  for (const Swept& below : swept_between(lowerable, sweeps, &deeper))
     deeper.add(below.point, below.length, below.need);
   std::vector<std::uint8_t> moved(vertices_.size(), 0);
   for (const Index v : near_vertices_) {
@@ -318,11 +348,12 @@ std::vector<Obstruction> CutSurface::left_obstructions(const std::vector<Index>&
     if (!before) before.emplace(body_.mesh);
     return before->at(p).winding != 0;
   };
-  for (const Swept& stands_out : swept_between(triangles, sweeps)) {
+  // All corners are kept, or at the end of their room; where one is free the exact search decides.
+  std::vector<Index> ended;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(ended),
+               [&](Index t) { return !any_may_go(t); });
+  for (const Swept& stands_out : swept_between(ended, sweeps)) {
     if (stands_out.length <= left_mm) continue;
-    // All corners are kept, or at the end of their room; where one is free the exact search decides.
-    const std::array<Index, 3>& corners = stands_out.point.corners;
-    if (std::any_of(corners.begin(), corners.end(), [&](Index v) { return may_go(v); })) continue;
     // A vertex lowered through the whole bone samples the surface behind it, which obstructs nothing.
     if (is_bone(stands_out.below))
       left.push_back(
@@ -452,6 +483,20 @@ void CutSurface::lower_met(const std::vector<Met>& met, const std::vector<SweepT
   }
   for (const Index v : near_vertices_)
     if (deeper.why(v)) take(v, vertices_[v].depth_mm + deeper.by(v), *deeper.why(v));
+}
+
+std::vector<Index> CutSurface::beside_changed(const std::vector<Vertex>& before,
+                                              const std::vector<Met>& met) const {
+  std::vector<std::uint8_t> marks(vertices_.size(), 0);
+  for (const Index v : near_vertices_) marks[v] = vertices_[v].depth_mm != before[v].depth_mm;
+  for (const Met& each : met)
+    for (const Index v : each.point.corners)
+      if (v != no_index) marks[v] = 1;
+  std::vector<Index> beside;
+  for (const Index t : moving_)
+    if (const auto& [a, b, c] = body_.mesh.triangles()[t]; marks[a] || marks[b] || marks[c])
+      beside.push_back(t);
+  return beside;
 }
 
 }  // namespace condyle::plan

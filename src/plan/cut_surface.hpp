@@ -91,6 +91,8 @@ class CutSurface {
   /// Lowers obstructing bone, in each point to where it is clear and by this at least. If no corner may go, those beside them do, in the
   /// triangles that share one: these triangles obstruct, except where they come into the bearing ball.
   void lower_met(const std::vector<Met>& met, const std::vector<SweepTo>& sweeps, double by_mm);
+  /// The triangles with a vertex that is elsewhere than before, or a corner of what met: no other one can meet if it did not.
+  std::vector<Index> beside_changed(const std::vector<Vertex>& before, const std::vector<Met>& met) const;
 
   const Body& body() const noexcept { return body_; }
   const std::vector<Vertex>& vertices() const noexcept { return vertices_; }
@@ -108,8 +110,9 @@ class CutSurface {
   class Deeper;
   void lower_vertices(const std::vector<Index>& which, const std::vector<SweepTo>& sweeps);
   void lower_overhangs(const std::vector<SweepTo>& sweeps);
-  std::vector<Swept> swept_between(const std::vector<Index>& triangles,
-                                   const std::vector<SweepTo>& sweeps) const;
+  std::vector<Swept> swept_between(const std::vector<Index>& triangles, const std::vector<SweepTo>& sweeps,
+                                   Deeper* deeper = nullptr) const;
+  bool any_may_go(Index triangle) const;
   std::vector<Index> lower_between_vertices(const std::vector<Index>& triangles,
                                             const std::vector<SweepTo>& sweeps);
   std::vector<Obstruction> left_obstructions(const std::vector<Index>& triangles,

@@ -6,9 +6,11 @@
 namespace condyle::plan {
 namespace {
 
-/// How often the last step is halved, and how many are asked for at once.
+/// How often the last step is halved, and how many are asked for at once at most: one first, as most intervals between vertices end in it.
 constexpr int halvings = 9;
-constexpr int steps_at_once = 8;
+/// Most intervals between vertices are short: whether they end before so many halvings of the step is asked first.
+constexpr int short_halvings = 4;
+constexpr int most_steps_at_once = 8;
 /// A depth is halved so often; overhangs are looked for in steps of this, mm.
 constexpr int depth_halvings = 11;
 constexpr double overhang_step_mm = 0.2;
@@ -45,7 +47,7 @@ std::vector<std::optional<Need>> needs_of(const Points& points, const std::vecto
 }
 
 std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
-                                           const std::vector<SweepTo>& sweeps) {
+                                           const std::vector<SweepTo>& sweeps, const LeaveOut& leave_out) {
   std::vector<SweptInterval> found(probes.size());
   Points points;
   for (const Probe& probe : probes) points.push_back(probe.from);
@@ -56,7 +58,8 @@ std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
 
   // Whole steps, some at once.
   std::vector<std::size_t> between;  // whose interval ends within the next step
-  for (int step = 0; !going.empty(); step += steps_at_once) {
+  for (int step = 0, steps_at_once = 1; !going.empty();
+       step += steps_at_once, steps_at_once = std::min(2 * steps_at_once, most_steps_at_once)) {
     points = {};
     for (const std::size_t i : going)
       for (int k = 1; k <= steps_at_once; ++k)
@@ -77,21 +80,30 @@ std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
     going = std::move(go_on);
   }
   // The last step, halved.
-  double half = step_mm / 2;
-  for (int i = 0; i < halvings && !between.empty(); ++i, half /= 2) {
+  const auto needs_after = [&](const std::vector<std::size_t>& which, double further) {
     points = {};
-    for (const std::size_t b : between)
-      points.push_back(probes[b].at(std::min(found[b].length + half, probes[b].room)));
-    const auto needs = needs_of(points, sweeps);
-    for (std::size_t b = 0; b < between.size(); ++b)
+    for (const std::size_t b : which)
+      points.push_back(probes[b].at(std::min(found[b].length + further, probes[b].room)));
+    return needs_of(points, sweeps);
+  };
+  std::vector<std::size_t> open, brief;
+  const auto goes_on = needs_after(between, std::ldexp(step_mm, -short_halvings));
+  for (std::size_t b = 0; b < between.size(); ++b) (goes_on[b] ? open : brief).push_back(between[b]);
+  double half = step_mm / 2;
+  for (int i = 0; i < halvings; ++i, half /= 2) {
+    if (i == short_halvings) open.insert(open.end(), brief.begin(), brief.end());
+    // All that is left to be added, and what that is rounded by.
+    if (leave_out) leave_out(open, found, 2.001 * half);
+    const auto needs = needs_after(open, half);
+    for (std::size_t b = 0; b < open.size(); ++b)
       if (needs[b]) {
-        SweptInterval& interval = found[between[b]];
-        interval.length = std::min(interval.length + half, probes[between[b]].room);
+        SweptInterval& interval = found[open[b]];
+        interval.length = std::min(interval.length + half, probes[open[b]].room);
         note(interval, *needs[b]);
       }
   }
   // Past the last point that is swept.
-  for (const std::size_t b : between) found[b].length = std::min(found[b].length + 2 * half, probes[b].room);
+  for (const std::size_t b : open) found[b].length = std::min(found[b].length + 2 * half, probes[b].room);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -43,9 +44,14 @@ std::vector<std::optional<Need>> needs_of(const Points& points, const std::vecto
 /// Steps along a direction, mm: what is not swept for less than this is not seen.
 inline constexpr double step_mm = 0.1;
 
-/// Searched in steps, the last one halved; to within 0.001 mm past its end.
+/// Leaves out those of the probes whose interval does not matter, if it is longer than found so far by this at most.
+using LeaveOut = std::function<void(std::vector<std::size_t>& which, const std::vector<SweptInterval>& found,
+                                    double longer_by)>;
+
+/// Searched in steps, the last one halved; to within 0.001 mm past its end. Those that are left out, before a step is halved, stay shorter.
 std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
-                                           const std::vector<SweepTo>& sweeps);
+                                           const std::vector<SweepTo>& sweeps,
+                                           const LeaveOut& leave_out = {});
 
 /// For each probe the depth to which bone goes: to the end of the swept interval that begins at it, if it has no other one; of one that is not
 /// swept itself to the end of the deepest there is under an overhang. By halving, to within depth_error_mm().

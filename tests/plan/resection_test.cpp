@@ -10,6 +10,7 @@
 #include "mesh/winding_number.hpp"
 #include "motion/rom/displacement.hpp"
 #include "plan/sweep.hpp"
+#include "plan/swept_interval.hpp"
 #include "support/real_hip.hpp"
 #include "support/test.hpp"
 
@@ -361,6 +362,51 @@ TEST(Resection, WhatASweepFindsIsWhatSampledPosesFind) {
       }
     }
   }
+}
+
+// Against one probe after the other, step by step, the last step halved from its middle on; from the surface and from just before the end.
+TEST(Resection, SweptIntervalsEndWhereSingleStepsFindTheirEnd) {
+  const Joint joint = hip_of(socket(25, 30), neck(15));
+  const plan::Sweep sweep(joint, BodyRole::mobile, joint.fixed.mesh, target("flexion", 65).motion,
+                          std::nullopt);
+  const Angle reach = Angle::degrees(65);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> turned(-0.7, 0.7), along(15, 40), below(0, 4.5);
+  std::vector<plan::Probe> probes;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = turned(random);
+    const Vec3 outwards(std::cos(angle), 0, std::sin(angle));
+    probes.push_back({(15 - (i % 2) * below(random)) * outwards + along(random) * down, -outwards,
+                      i % 5 == 0 ? 1.03 : 30});
+  }
+  const std::vector<plan::SweepTo> sweeps{{&sweep, reach}};
+  const auto found = plan::swept_intervals(probes, sweeps);
+  const auto is_odd = [](std::size_t i) { return i % 2 == 1; };
+  const auto of_even = plan::swept_intervals(
+      probes, sweeps, [&](auto& which, const auto&, double) { std::erase_if(which, is_odd); });
+  std::size_t swept = 0;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const auto is_swept = [&](double depth) {
+      Points point;
+      point.push_back(probes[i].at(std::min(depth, probes[i].room)));
+      return std::isfinite(sweep.first_inside(point, reach)[0]);
+    };
+    EXPECT_EQ(found[i].need.has_value(), is_swept(0));
+    if (!found[i].need) continue;
+    ++swept;
+    double length = 0;
+    for (int step = 1; length < probes[i].room && is_swept(step * 0.1); ++step)
+      length = std::min(step * 0.1, probes[i].room);
+    if (length < probes[i].room) {
+      double half = 0.05;
+      for (int halving = 0; halving < 9; ++halving, half /= 2)
+        if (is_swept(length + half)) length = std::min(length + half, probes[i].room);
+      length = std::min(length + 2 * half, probes[i].room);
+    }
+    EXPECT_EQ(found[i].length, length) << i;
+    EXPECT_TRUE(is_odd(i) ? of_even[i].length <= length : of_even[i].length == length) << i;
+  }
+  EXPECT_GT(swept, 50u);
 }
 
 // The depth that stays is that of the cut, not of what the other bone's share takes away from it.
