@@ -2,7 +2,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <exception>
 #include <functional>
+#include <mutex>
 
 #include "answer/check_gains.hpp"
 #include "answer/limit_facts.hpp"
@@ -11,9 +13,11 @@
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/parallel.hpp"
 #include "motion/rom/displaced_joint.hpp"
 #include "motion/rom/displacement.hpp"
 #include "plan/check_target.hpp"
+#include "plan/cut_for.hpp"
 
 namespace condyle {
 namespace {
@@ -32,15 +36,17 @@ constexpr double alpha_unchanged_deg = 1;
 /// A limit that changes by less counts as unchanged, and by less than the second the cut does not move it.
 constexpr double no_change_deg = 0.05, unmoved_deg = 1e-6;
 
-/// Counts the cuts that are done, of as many as there may be.
+/// Counts the cuts that are done, of as many as there may be. From any thread.
 class Cuts {
  public:
-  Cuts(const Joint& joint, const Control& control, std::size_t total)
-      : joint_(joint), control_(control), total_(total) {}
+  Cuts(const Joint& joint, const motion::RangeOfMotion& before, const Control& control, std::size_t total)
+      : joint_(joint), before_(before), control_(control), total_(total) {}
 
-  /// Empty if it was stopped.
-  std::optional<plan::Resection> operator()(const plan::ResectionOptions& request) {
-    auto cut = plan::resect(joint_, request, {.stop = control_.stop});
+  /// Empty if it was stopped. Where targets end after it is left open.
+  std::optional<plan::Resection> operator()(const plan::ResectionOptions& request,
+                                            plan::CutFacts facts = plan::CutFacts::all_but_limits) {
+    auto cut = plan::cut_for(joint_, request, before_, facts, {.stop = control_.stop});
+    const std::scoped_lock lock(counting_);
     done_ = std::min(done_ + 1, total_);
     if (cut && control_.progress) control_.progress("cuts", done_, total_);
     return cut;
@@ -48,7 +54,9 @@ class Cuts {
 
  private:
   const Joint& joint_;
+  const motion::RangeOfMotion& before_;
   const Control& control_;
+  std::mutex counting_;
   std::size_t done_ = 0, total_;
 };
 
@@ -356,24 +364,54 @@ void note_promises(ResectionAnswer& answer) {
   }
 }
 
+/// The reach, volume and depth of a cut.
+ResectionAnswer::CurvePoint curve_point(std::size_t target, Angle reach, const plan::Resection& cut) {
+  return {target, reach, cut.volume_mm3(),
+          std::max(cut.mobile ? cut.mobile->deepest_mm : 0, cut.fixed ? cut.fixed->deepest_mm : 0)};
+}
+
 /// False if it was stopped.
 bool add_curve(const ResectionRequest& request, Cuts& cuts, ResectionAnswer& answer) {
+  struct Point {
+    std::size_t target;
+    Angle reach;
+    std::optional<ResectionAnswer::CurvePoint> found = {};
+    std::exception_ptr failure = {};
+  };
+  std::vector<Point> points;
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) {
     const plan::ReachOutcome& outcome = answer.resection.targets[i];
     const Angle from = outcome.before.end.turned;
     if (!(outcome.planned > from)) continue;
-    const auto points = static_cast<double>(request.curve_points);
-    for (std::size_t k = 1; k <= request.curve_points; ++k) {
+    const std::size_t count = request.curve_points;
+    for (std::size_t k = 1; k < count; ++k)
+      points.push_back(
+          {i, from + (outcome.planned - from) * (static_cast<double>(k) / static_cast<double>(count))});
+    points.push_back({i, outcome.planned});
+    // The plan itself, if it has no other target and nothing blocks this one.
+    if (answer.resection.targets.size() == 1 && !outcome.blocked)
+      points.back().found = curve_point(i, outcome.planned, answer.resection);
+  }
+  core::parallel_chunks(points.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (Point& point : std::span(points).subspan(first, last - first)) {
+      if (point.found) continue;
       plan::ResectionOptions one = request.resection;
       one.margin_mm = answer.margin_mm;
-      const Angle reach = from + (outcome.planned - from) * (static_cast<double>(k) / points);
-      one.targets = {{outcome.target.motion, reach}};
-      const auto cut = cuts(one);
-      if (!cut) return false;
-      const double deepest =
-          std::max(cut->mobile ? cut->mobile->deepest_mm : 0, cut->fixed ? cut->fixed->deepest_mm : 0);
-      answer.curve.push_back({i, cut->targets.front().planned, cut->volume_mm3(), deepest});
+      one.targets = {{answer.resection.targets[point.target].target.motion, point.reach}};
+      try {
+        core::isolated([&] {
+          if (const auto cut = cuts(one, plan::CutFacts::curve))
+            point.found = curve_point(point.target, cut->targets.front().planned, *cut);
+        });
+      } catch (...) {
+        point.failure = std::current_exception();
+      }
     }
+  });
+  for (const Point& point : points) {
+    if (point.failure) std::rethrow_exception(point.failure);
+    if (!point.found) return false;
+    answer.curve.push_back(*point.found);
   }
   return true;
 }
@@ -474,7 +512,8 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
   if (asked.confidence && !(*asked.confidence > 0 && *asked.confidence < 1))
     throw UsageError("resection: the confidence must be above 0 and below 1");
   if (!asked.bands) asked.confidence.reset();
-  Cuts cuts(at, control,
+  const motion::RangeOfMotion range(at, asked.resection.range);
+  Cuts cuts(at, range, control,
             1 + asked.resection.targets.size() * asked.curve_points +
                 (asked.confidence ? MarginSearch::most_margins : 0));
   auto first = cuts(asked.resection);
@@ -488,10 +527,11 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
     if (asked.confidence && !reach_share(asked, displaced, control, cuts, answer)) return std::nullopt;
     if (!judge(at, asked, displaced, control, answer)) return std::nullopt;
   }
-  const motion::RangeOfMotion range(at, asked.resection.range);
   answer.before = range.limits(asked.motions);
   const motion::RangeOfMotion range_after(answer.resection.joint, asked.resection.range);
   answer.after = range_after.limits(asked.motions);
+  for (plan::ReachOutcome& outcome : answer.resection.targets)
+    outcome.after = range_after.limit(outcome.target.motion);
   // Compared on the same triangles: what a measure takes of a surface depends a little on them.
   const Joint finer = with_finer_triangles(answer.resection);
   if (at.is_hip() && at.kind != JointKind::hinge) {

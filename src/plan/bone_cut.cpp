@@ -495,7 +495,7 @@ bool BoneCut::reaches_by_smaller_triangles() const {
   return false;
 }
 
-CutBone BoneCut::cut_bone() const {
+CutBone BoneCut::cut_bone(CutFacts facts) const {
   CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}};
   cut.body.mesh = surface_->mesh();
   // Along a wall the distance inwards is longer than the wall is deep.
@@ -515,6 +515,7 @@ CutBone BoneCut::cut_bone() const {
   cut.volume_mm3 = removed_mm3(*surface_);
   if (request_.burr_mm) cut.burr_volume_mm3 = cut.volume_mm3 - before_burr_mm3_;
   cut.burr_in_kept_mm = burr_in_kept_mm_;
+  if (facts == CutFacts::curve) return cut;
   std::vector<SweepTo> targets;
   for (std::size_t i = 0; i < sweeps_.size(); ++i) targets.push_back({sweeps_[i].get(), reach_[i]});
   cut.least_volume_mm3 = cut.volume_mm3 * swept_share(*surface_, targets);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/resection.hpp"
+#include "plan/cut_for.hpp"
 #include "plan/cut_surface.hpp"
 #include "plan/exact_reach.hpp"
 #include "plan/sweep.hpp"
@@ -44,7 +45,7 @@ class BoneCut {
 
   /// The joint with this bone as it is cut now.
   Joint joint() const;
-  CutBone cut_bone() const;
+  CutBone cut_bone(CutFacts facts) const;
   bool removes_any() const;
   /// Whether a target is reached that was not, though nothing goes: fewer of the smaller triangles lie partly in the bearing ball.
   bool reaches_by_smaller_triangles() const;

@@ -13,6 +13,7 @@
 #include "motion/rom/ligament_limits.hpp"
 #include "plan/bone_cut.hpp"
 #include "plan/check_target.hpp"
+#include "plan/cut_for.hpp"
 #include "plan/planned.hpp"
 
 namespace condyle::plan {
@@ -142,8 +143,18 @@ Resection resect(const Joint& joint, const ResectionOptions& request) {
 std::optional<Resection> resect(const Joint& joint, const ResectionOptions& as_given,
                                 const Control& control) {
   const ResectionOptions request = with_gains_resolved(joint, as_given);
+  auto done =
+      cut_for(joint, request, motion::RangeOfMotion(joint, request.range), CutFacts::all_but_limits, control);
+  if (!done) return std::nullopt;
+  const motion::RangeOfMotion after(done->joint, request.range);
+  for (ReachOutcome& outcome : done->targets) outcome.after = after.limit(outcome.target.motion);
+  return done;
+}
+
+std::optional<Resection> cut_for(const Joint& joint, const ResectionOptions& request,
+                                 const motion::RangeOfMotion& before, CutFacts facts,
+                                 const Control& control) {
   Resection done{joint, {}, {}, {}, false};
-  const motion::RangeOfMotion before(joint, request.range);
   std::vector<CutTarget> open;
   for (std::size_t i = 0; i < request.targets.size(); ++i) {
     const ReachTarget& target = request.targets[i];
@@ -180,9 +191,9 @@ std::optional<Resection> resect(const Joint& joint, const ResectionOptions& as_g
   if (request.fixed_share < 1 && !open.empty()) {
     BoneCut cut(joint, BodyRole::mobile, request, open, 1 - request.fixed_share);
     note_reach(cut);
-    done.sweeps_bearing = cut.sweeps_bearing();
+    done.sweeps_bearing = facts != CutFacts::curve && cut.sweeps_bearing();
     if (cut.removes_any() || cut.reaches_by_smaller_triangles()) {
-      done.mobile = cut.cut_bone();
+      done.mobile = cut.cut_bone(facts);
       done.joint = cut.joint();
     }
     if (!report()) return std::nullopt;
@@ -192,7 +203,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionOptions& as_g
     BoneCut cut(with_mobile, BodyRole::fixed, request, open, 1);
     note_reach(cut);
     if (cut.removes_any() || cut.reaches_by_smaller_triangles()) {
-      done.fixed = cut.cut_bone();
+      done.fixed = cut.cut_bone(facts);
       done.joint = cut.joint();
     }
     if (!report()) return std::nullopt;
@@ -203,8 +214,6 @@ std::optional<Resection> resect(const Joint& joint, const ResectionOptions& as_g
     for (const auto* cut : {&done.mobile, &done.fixed})
       if (*cut) add_planned(done.joint, without_bone((*cut)->volume_mm3, (*cut)->body.name));
   }
-  const motion::RangeOfMotion after(done.joint, request.range);
-  for (ReachOutcome& outcome : done.targets) outcome.after = after.limit(outcome.target.motion);
   return done;
 }
 

@@ -666,6 +666,25 @@ TEST(Resection, ASharesMarginIsReachedInThatShareOfJointsThatAreDisplacedByHand)
   }
 }
 
+// The last one is the plan itself.
+TEST(Resection, EachPointOfACurveIsAPlanByItself) {
+  const Case of{hip_of(socket(25, 30), neck(15))};
+  ResectionRequest request{.resection = reaching({target("flexion", 55)}), .bands = {}, .curve_points = 2};
+  request.resection.edge_mm = 2;
+  request.motions = {request.resection.targets[0].motion};
+  const ResectionAnswer answer = answer_resection(of, request);
+  ASSERT_EQ(answer.curve.size(), 2u);
+  for (const ResectionAnswer::CurvePoint& point : answer.curve) {
+    plan::ResectionOptions one = request.resection;
+    one.targets[0].reach = point.reached;
+    const plan::Resection cut = plan::resect(of.joint, one);
+    EXPECT_EQ(point.volume_mm3, cut.volume_mm3());
+    EXPECT_EQ(point.deepest_mm, cut.mobile->deepest_mm);
+  }
+  EXPECT_LT(answer.curve[0].volume_mm3, answer.curve[1].volume_mm3);
+  EXPECT_EQ(answer.curve[1].reached, request.resection.targets[0].reach);
+}
+
 // The socket is said to lie so far off that about its centre the cut's own gain is lost, or not.
 TEST(Resection, AboutTheOtherCentreAPlanIsWhatTheJointThatIsMovedThereSays) {
   const sample::SampleHip bones =
