@@ -6,6 +6,7 @@
 #include "mesh/subdivide.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/winding_number.hpp"
+#include "support/brute_force.hpp"
 #include "support/random_pose.hpp"
 #include "support/real_hip.hpp"
 #include "support/test.hpp"
@@ -300,6 +301,19 @@ TEST(Touch, OfCoincidentBoxesIsAllOfThem) {
     EXPECT_NEAR(*answer.overlap->volume_mm3, 8, 1e-12);
     for (const FreeTranslation& free : answer.free) EXPECT_NEAR(free.distance_mm, 2, 1e-14);
   }
+}
+
+TEST(Touch, HasNoVolumeWhereABodyThatCrossesItselfIsInsideOut) {
+  TriMesh pulled = box({-4, -4, -4}, {4, 4, 4});
+  // Out through the opposite corner, so that a part beyond the wall winds the other way.
+  pulled.vertices.x[0] = pulled.vertices.y[0] = pulled.vertices.z[0] = 12;
+  const Vec3 there(6, 1, 1), half(0.2, 0.2, 0.2);
+  ASSERT_LT(winding_number(pulled, there).winding, 0);
+  const TouchAnswer found = touch(pulled, box(there - half, there + half));
+  EXPECT_TRUE(found.in_contact);
+  EXPECT_FALSE(found.overlap->volume_mm3);
+  EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(),
+                          [](const JointNote& note) { return note.code == JointNoteCode::self_crossings; }));
 }
 
 TEST(Touch, ScalesWithTheMeshes) {
