@@ -519,7 +519,8 @@ class TouchRecord(Record):
         along rays from `--centre`, as `condyle depth --method radial` has it: of the deepest vertex whose ray is a depth; null
         without a centre or contact, and if a body has no inside
     volume_mm3 : float or None
-        of the space inside both; null without contact, without `--measures`, and if a body has no inside or is inside out there, as one that crosses itself may be
+        of the space inside both; null without contact, without `--measures`, and if a body has no inside or is inside out there,
+        as one that crosses itself may be
     volume_error_mm3 : float or None
         it is off by no more
     fixed_area_mm2 : float or None
