@@ -4,7 +4,6 @@
 
 #include <exception>
 #include <filesystem>
-#include <source_location>
 #include <string>
 #include <string_view>
 
@@ -46,14 +45,21 @@ struct Refusal {
   std::string given, says;
 };
 
-using SourcePlace = std::source_location;
+/// Where a check stands. std::source_location is not in every compiler that is supported: clang 14 has none.
+struct SourcePlace {
+  const char* file = "";
+  int line = 0;
+
+  static SourcePlace current(const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    return {file, line};
+  }
+};
 
 /// Whether it holds; if not, the failure stands at the place and shows the text.
 inline void expect_of_text(bool holds, std::string_view text, std::string_view what, std::string_view wanted,
                            const SourcePlace& place) {
   if (!holds)
-    ADD_FAILURE_AT(place.file_name(), static_cast<int>(place.line()))
-        << "'" << text << "'\n  " << what << " '" << wanted << "'";
+    ADD_FAILURE_AT(place.file, place.line) << "'" << text << "'\n  " << what << " '" << wanted << "'";
 }
 
 inline void expect_says(std::string_view text, std::string_view piece,
