@@ -13,6 +13,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "range_answer.hpp"
 #include "resection.hpp"
+#include "sweep.hpp"
 
 namespace condyle::python {
 namespace {

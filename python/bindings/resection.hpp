@@ -15,13 +15,6 @@ struct PlanHandle {
   ResectionAnswer answer;
 };
 
-/// A sweep as Python holds it, for its files and for a report.
-struct SweepHandle {
-  io::LoadedJoint loaded;
-  SweepRequest request;
-  SweepAnswer answer;
-};
-
 /// How bone is cut, of what cut_options() of Python has checked; without targets, marked vertices and range.
 plan::ResectionOptions cut_in(const py::dict& given);
 

@@ -1,7 +1,10 @@
+#include "sweep.hpp"
+
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +19,6 @@
 #include "io/sweep/target_table.hpp"
 #include "motion.hpp"
 #include "range_answer.hpp"
-#include "resection.hpp"
 
 namespace condyle::python {
 namespace {

@@ -15,6 +15,7 @@
 #include "io/record/json_of.hpp"
 #include "io/result/json.hpp"
 #include "io/result/json_objects.hpp"
+#include "io/result/measure_geometry.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/scope_text.hpp"
@@ -22,76 +23,7 @@
 namespace condyle::io {
 namespace {
 
-template <class T, class Write>
-Json if_found(const std::optional<T>& found, const Write& write) {
-  return found ? Json(write(*found)) : Json(nullptr);
-}
-
-Json point_or_null(const std::optional<Vec3>& point) {
-  return if_found(point, [](const Vec3& p) { return numbers(p); });
-}
-
-Json closest(const std::optional<measure::ClosestBones>& at) {
-  return if_found(at, [](const measure::ClosestBones& points) {
-    return Json{{"fixed_mm", numbers(points.fixed_point)}, {"mobile_mm", numbers(points.mobile_point)}};
-  });
-}
-
-void add_femur(const measure::FemurMeasures& femur, Json& json) {
-  json["head"] = if_found(femur.head, [](const Sphere& head) {
-    return Json{{"centre_mm", numbers(head.centre)}, {"radius_mm", head.radius}};
-  });
-  json["neck"] = if_found(femur.neck, [](const measure::NeckGeometry& neck) {
-    return Json{{"head_centre_mm", numbers(neck.head.centre)}, {"direction", numbers(neck.direction)}};
-  });
-  json["clock"] = if_found(femur.neck, [](const measure::NeckGeometry& neck) {
-    return Json{{"twelve", numbers(neck.clock.twelve)},
-                {"three", numbers(neck.clock.three)},
-                {"from", neck.clock_from == measure::ClockSource::shaft ? "shaft" : "frame"}};
-  });
-  json["shaft"] = if_found(femur.shaft, [](const measure::ShaftGeometry& shaft) {
-    return Json{
-        {"first_mm", numbers(shaft.first)}, {"last_mm", numbers(shaft.last)}, {"bound_deg", shaft.bound_deg}};
-  });
-  json["condyles"] = if_found(femur.condyles, [](const measure::CondyleGeometry& condyles) {
-    return Json{{"middle_mm", numbers(condyles.middle)},
-                {"medial_mm", numbers(condyles.medial)},
-                {"lateral_mm", numbers(condyles.lateral)}};
-  });
-  json["trochanter"] = if_found(femur.trochanter_top, [](const Vec3& top) {
-    return Json{{"top_mm", numbers(top)}};
-  });
-}
-
-void add_acetabulum(const measure::AcetabulumMeasures& acetabulum, Json& json) {
-  json["rim_plane"] = if_found(acetabulum.plane, [](const measure::RimGeometry& plane) {
-    return Json{{"centre_mm", numbers(plane.centre)},
-                {"normal", numbers(plane.normal)},
-                {"radius_mm", plane.radius_mm}};
-  });
-  json["chords"] = Json::array();
-  for (const measure::RimChord& chord : acetabulum.chords)
-    json["chords"].push_back({{"height_mm", chord.height_mm},
-                              {"front_mm", numbers(chord.front)},
-                              {"back_mm", numbers(chord.back)}});
-  json["edges"] = {{"lateral_mm", point_or_null(acetabulum.lateral_edge)},
-                   {"anterior_mm", point_or_null(acetabulum.anterior_edge)},
-                   {"posterior_mm", point_or_null(acetabulum.posterior_edge)}};
-  json["pelvis"] = {{"anterior", numbers(acetabulum.anterior)},
-                    {"superior", numbers(acetabulum.superior)},
-                    {"lateral", numbers(acetabulum.lateral)}};
-}
-
-/// Planes, axes and points that measures were made with, by the names of MeasureDefinition::measured_by but for the list `rim`; null where
-/// they were not found. The femur's are in the mobile body's frame, the rest in the fixed one's.
-Json measure_geometry(const measure::HipMeasures& measures) {
-  Json json;
-  add_femur(measures.femur, json);
-  add_acetabulum(measures.acetabulum, json);
-  json["joint_space"] = closest(measures.both.joint_space_at);
-  json["ischiofemoral"] = closest(measures.both.ischiofemoral_at);
-  return json;
-}
+using io::Json;
 
 /// By which axes acetabular angles are measured, and what to think of them.
 std::string pelvis_text(const measure::HipMeasures& measures) {
@@ -241,7 +173,7 @@ Json measure_object(const MeasureResult& result) {
             {"mobile", result.joint.mobile.name},
             {"side", name_of(result.joint.side)}};
   json.update(json_of(shape_record(result.answer), {{}, result.joint.anatomy}));
-  json["geometry"] = measure_geometry(result.answer.measures);
+  json["geometry"] = io::measure_geometry(result.answer.measures);
   json["notes"] = io::notes_json(result.notes);
   json["scope"] = scope_text(result.joint);
   json["provenance"] = io::provenance_json(result.provenance);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -13,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/impingement_zone.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/figure_ending.hpp"
 #include "io/file/output_folder.hpp"
@@ -22,6 +20,7 @@
 #include "io/result/map_result.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/zone_result.hpp"
 
 namespace condyle::io {
 namespace {
@@ -50,50 +49,6 @@ bool is_of_rom(std::string_view name) {
   static constexpr std::string_view names[] = {"rom.json",          "limits.csv", "bearing.vtp", "map.csv",
                                                "map_intervals.csv", "map.vtp",    crate_name};
   return std::find(std::begin(names), std::end(names), name) != std::end(names) || is_drawn_of_rom(name);
-}
-
-/// VTK's readers take no infinities in text; NaN says "none" in every array of ours.
-std::vector<double> finite_or_nan(std::vector<double> values) {
-  for (double& value : values)
-    if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
-  return values;
-}
-
-/// Point arrays of one body: radial_depth_mm, ray_to_normal_deg, tangential_depth_deg, tangential_depth_mm.
-/// None if the other mesh is open and nothing can be inside it. An arc that nothing ends is NaN.
-std::vector<MeshArray> zone_point_arrays(const motion::BodyZone& zone) {
-  if (zone.radial_depth_mm.empty()) return {};
-  return {{"radial_depth_mm", finite_or_nan(zone.radial_depth_mm)},
-          {"ray_to_normal_deg", finite_or_nan(zone.ray_to_normal_deg)},
-          {"tangential_depth_deg", finite_or_nan(zone.tangential_depth_deg)},
-          {"tangential_depth_mm", finite_or_nan(zone.tangential_depth_mm)}};
-}
-
-/// Cell array in_zone: 1 for a triangle that meets the other body.
-MeshArray zone_cell_array(const motion::BodyZone& zone, std::size_t triangles) {
-  std::vector<std::uint8_t> in_zone(triangles);
-  for (const Index t : zone.triangles) in_zone[t] = 1;
-  return {"in_zone", std::move(in_zone)};
-}
-
-/// X_FM at which the zone was found: past the limit.
-Pose zone_pose(const motion::ImpingementZone& zone, CoordinateSystem system) {
-  const motion::Motion& motion = zone.limit.motion;
-  const Angle onwards = zone.past * sign_of(motion.sense);
-  return pose_at(system, motion::turned_by(zone.limit.angles_at_limit(), motion.vary, onwards));
-}
-
-/// Part of a file name that is one whatever characters a motion's name holds: letters, digits, '-' and '_',
-/// no more than 60 of them.
-std::string file_name_part(std::string_view motion) {
-  constexpr std::size_t longest = 60;
-  std::string part(motion.substr(0, longest));
-  for (char& c : part) {
-    const bool plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    if (!plain) c = '_';
-  }
-  return part;
 }
 
 void write_zones(OutputFolder& out, const RomResult& result, const VtpOptions& vtp) {
