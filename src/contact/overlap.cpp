@@ -438,6 +438,7 @@ Overlap overlap_of(const OverlapBody& fixed, const OverlapBody& mobile, std::spa
   const Total common = columns.common_volume();
   out.volume = common.volume.value();
   out.volume_error = unit_rounding * common.error.value();
+  if (out.has_volume()) out.volume = std::max(0.0, out.volume);
   // Most bodies cover nothing about the overlap more than once, which takes pairs of triangles only.
   const auto counted_again = [&](const Grid& body, const Grid& other) {
     const Total covered = columns.covered_again(body);

@@ -316,6 +316,15 @@ TEST(Touch, HasNoVolumeWhereABodyThatCrossesItselfIsInsideOut) {
                           [](const JointNote& note) { return note.code == JointNoteCode::self_crossings; }));
 }
 
+TEST(Touch, VolumesThatRoundingTakesBelowZeroAreZero) {
+  TriMesh pulled = box({-4, -4, -4}, {4, 4, 4});
+  pulled.vertices.x[0] = 8, pulled.vertices.y[0] = 9, pulled.vertices.z[0] = 10;
+  const TouchAnswer found = touch(pulled, box({6.8, 6.8, 6.8}, {7.2, 7.2, 7.2}));
+  ASSERT_TRUE(found.overlap->volume_mm3);
+  EXPECT_GE(*found.overlap->volume_mm3, 0);
+  EXPECT_FALSE(std::signbit(*found.overlap->volume_mm3));
+}
+
 TEST(Touch, ScalesWithTheMeshes) {
   const TriMesh fixed = box({-10, -10, -10}, {10, 10, 10}), mobile = box({-3, -2, 8.75}, {3, 4, 14});
   for (const double by : {1e-6, 1e6}) {
