@@ -5,7 +5,7 @@
 
 namespace condyle::test {
 
-/// Of what has such triangles only, nothing says whether it is inside a body.
+/// Whether any triangle is degenerate. Nothing defines whether its corners are inside a body.
 bool has_degenerate(const TriMesh& mesh);
 
 /// Whether surfaces meet at the pose; a triangle that is degenerate is none there either, though rounding may give it an area.
