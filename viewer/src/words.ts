@@ -265,6 +265,7 @@ export const words = {
 
   aboutLast: (deg: string, mm: string) => `${deg}° (${mm} mm) about the last movement`,
   lastSlides: "the last movement slides",
+  lastFreesNever: "no turn about the last movement frees it",
 
   motion: "Motion",
   reset: "Back to zero",

@@ -9,7 +9,7 @@ export const queries = {
   /// Each ligament of the joint file, with a tube along its path.
   ligaments: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.ligamentsAt(at),
   depth: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.depth(at),
-  /// Of the movement from one pose to another.
+  /// The movement from one pose to another as a screw, and the depth about its axis.
   screw: (joint: CoreJoint, { before, at }: { before: Coordinates; at: Coordinates }) => joint.screw(before, at),
   /// The whole surfaces, or, if `counted`, the parts whose contact ends motions.
   nearest: (joint: CoreJoint, { at, counted }: { at: Coordinates; counted: boolean }) => joint.nearest(at, counted),

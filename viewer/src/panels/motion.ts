@@ -236,9 +236,10 @@ export class MotionPanel {
   }
 
   /// Comes once the joint is idle: how far it must turn about the axis of its last movement to be free.
-  showScrew(at: Coordinates, { slides, depth_deg, depth_mm }: Screw): void {
+  showScrew(at: Coordinates, { slides, axis, depth_deg, depth_mm }: Screw): void {
     if (!this.isHere(at)) return;
-    this.aboutLast = slides ? words.lastSlides : depth_deg ? words.aboutLast(fixed(depth_deg, 1), fixed(depth_mm!, 1)) : "";
+    const frees = depth_deg ? words.aboutLast(fixed(depth_deg, 1), fixed(depth_mm!, 1)) : "";
+    this.aboutLast = slides ? words.lastSlides : axis && depth_deg === null ? words.lastFreesNever : frees;
     this.drawStatus();
   }
 

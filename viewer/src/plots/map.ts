@@ -26,10 +26,10 @@ const heldText = (value: number, unit: Unit) => plain(value, unit === "mm" ? 3 :
 const axisTitle = ({ name, unit }: { name: string; unit: Unit }) => (unit === "mm" ? words.translation(name) : spaced(name));
 
 /// Values by the number of a column or row, between them too, and back.
-function axisOf(values: readonly number[]): { last: number; at: (place: number) => number; invert: (value: number) => number } {
+function axisOf({ values, unit }: { values: readonly number[]; unit: Unit }): { last: number; at: (place: number) => number; invert: (value: number) => number } {
   const last = values.length - 1, first = values[0]!, step = last > 0 ? (values[last]! - first) / last : 1;
   return {
-    last, at: (place) => Number((first + step * Math.min(last, Math.max(0, place))).toFixed(1)), invert: (value) => (value - first) / step,
+    last, at: (place) => Number((first + step * Math.min(last, Math.max(0, place))).toFixed(unit === "mm" ? 3 : 1)), invert: (value) => (value - first) / step,
   };
 }
 
@@ -59,7 +59,7 @@ export class MapPlot {
   private readonly readout = html("p", { class: "map-readout small", "aria-live": "polite" }, words.severalFree);
   private readonly columns;
   private readonly rows;
-  /// Of the varied coordinate.
+  /// The unit of the varied coordinate.
   private readonly unit: Unit;
   private readonly start: number;
   private readonly end: number;
@@ -73,7 +73,7 @@ export class MapPlot {
     this.start = map.start_mm ?? map.start_deg!;
     this.end = scaleEnd[this.unit];
     this.colour = scaleSequential(interpolateCividis).domain([0, this.end]).clamp(true);
-    this.plane = { x: scaleLinear(), y: scaleLinear(), columns: axisOf(columns.values), rows: axisOf(rows.values) };
+    this.plane = { x: scaleLinear(), y: scaleLinear(), columns: axisOf(columns), rows: axisOf(rows) };
     const picture = svg("svg", { class: "plot map" }, svg("defs", {}, hatching(`${prefix}unfree`)));
     rows.values.forEach((rowValue, row) => columns.values.forEach((columnValue, column) => {
       const point = row * columns.values.length + column, cell = svg("rect", { class: "cell", fill: "none" });
