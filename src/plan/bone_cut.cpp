@@ -358,7 +358,7 @@ bool BoneCut::correct() {
     const std::vector<CutSurface::Vertex> before = surface_->vertices();
     surface_->lower_met(met, sweeps, (i + 1) * correction_mm);
     may_meet = surface_->beside_changed(before, met);
-    // Of what is in contact at the start one place only is known.
+    // The search names one place of contact at the start, and there may be others.
     if (met.front().need.from_rad == 0) may_meet = all;
   }
   throw MeshError(bone_.name + ": after " + std::to_string(most_corrections) +

@@ -168,7 +168,7 @@ struct DesignLimits::Parts {
   std::vector<EndingPair> names;
   std::vector<Turn> turns;
   std::vector<std::size_t> turn_of;  ///< of each target: targets of one motion share it
-  /// Of each target the first one of the same motion and reach, whose limit is its own.
+  /// For each target the number of the first one with its motion and reach: they share a limit.
   std::vector<std::size_t> first_like;
   std::size_t turns_with_tables = 0;
   std::vector<core::Lazy<Table>> tables;  ///< by mesh and turn, of meshes that do not move

@@ -6,11 +6,10 @@
 namespace condyle::plan {
 namespace {
 
-/// How often the last step is halved, and how many are asked for at once at most: one first, as most intervals between vertices end in it.
-constexpr int halvings = 9;
-/// Most intervals between vertices are short: whether they end before so many halvings of the step is asked first.
-constexpr int short_halvings = 4;
+/// One step is asked for first, as most intervals between vertices end in it, then two, and up to so many at once.
 constexpr int most_steps_at_once = 8;
+/// How often the last step is halved. An interval that ends before the first of these halvings' last part skips them.
+constexpr int halvings = 9, short_halvings = 4;
 /// A depth is halved so often; overhangs are looked for in steps of this, mm.
 constexpr int depth_halvings = 11;
 constexpr double overhang_step_mm = 0.2;

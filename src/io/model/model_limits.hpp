@@ -31,8 +31,8 @@ bool is_own_force(std::string_view name, std::string_view coordinate);
 std::string force_element(const CoordinateRange& range, StopForce stop);
 
 /// The text of a model with these ranges of a joint's coordinates, clamped, a force for each, and a comment. Not another byte changes. A force
-/// and a comment with provenance that were written so before are replaced. `joint` may be empty: not known. Throws FileError for what is no model, and for a coordinate that is
-/// not there once.
+/// and a comment with provenance that were written so before are replaced. `joint` may be empty: not known. Throws FileError for what is
+/// no model, and for a coordinate that is not there once.
 std::string with_limits(std::string_view model, const std::filesystem::path& path, const std::string& joint,
                         std::span<const CoordinateRange> ranges, StopForce stop, std::string_view comment);
 

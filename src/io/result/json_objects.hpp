@@ -8,10 +8,10 @@
 
 namespace condyle::io {
 
-/// Of measure_json().
+/// What measure_json() writes.
 Json measure_object(const MeasureResult& result);
 
-/// Of resection_json().
+/// What resection_json() writes.
 Json resection_object(const ResectionResult& result);
 
 }  // namespace condyle::io
