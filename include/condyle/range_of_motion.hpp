@@ -221,9 +221,11 @@ class RangeOfMotion {
                                        const SlideRange& range) const;
 
   /// The least rotation that brings one angle to an end that contact or a ligament makes, within half a turn; empty if there is none. At a
-  /// start that is not free it says so, turned by 0. Another flexion than the last ones costs some microseconds per fixed triangle. Throws
-  /// MeshError as limit().
+  /// start that is not free it says so, turned by 0. Makes ready only what its searches look at. Throws MeshError as limit().
   [[nodiscard]] std::optional<NearestEnd> nearest_end(const JointAngles& start) const;
+  /// The end behind a start that is beyond one: one angle turned back so far frees it. Turned by 0, as rounding may put that end just after
+  /// the start. Empty where no angle does. Costs and throws as nearest_end().
+  [[nodiscard]] std::optional<NearestEnd> end_behind(const JointAngles& start, Angle within) const;
   /// The smallest distance of surfaces whose contact ends a motion, mm, 0 if they meet: of a hip between the bone beside its head and the hip
   /// bone. In any pose of M in F.
   [[nodiscard]] double clearance_mm(const Pose& X_FM) const;

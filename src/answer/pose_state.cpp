@@ -14,24 +14,6 @@ bool is_free(const NearestEnd& nearest) noexcept {
          nearest.end.reason != motion::LimitReason::strained_at_start;
 }
 
-/// The end just behind a pose that is beyond one: a rotation back by at_limit_within frees it. Rounding may put that end just
-/// after the pose.
-std::optional<NearestEnd> end_just_behind(const RangeOfMotion& limits, const JointAngles& at) {
-  for (const JointAngle vary : all_joint_angles) {
-    if (limits.kind() == JointKind::hinge && vary != JointAngle::flexion) continue;
-    for (const RotationSense back : {RotationSense::negative, RotationSense::positive}) {
-      const bool is_back = back == RotationSense::negative;
-      const motion::RotationLimits both = limits.both_limits(
-          vary, motion::turned_by(at, vary, at_limit_within * sign_of(back)),
-          {is_back ? Angle() : at_limit_within * -2, is_back ? at_limit_within * 2 : Angle()});
-      const motion::Limit& end = is_back ? both.positive : both.negative;
-      if (both.free_at_start() && end.reason != motion::LimitReason::end_of_range)
-        return NearestEnd{end, vary, is_back ? RotationSense::positive : RotationSense::negative};
-    }
-  }
-  return std::nullopt;
-}
-
 PoseStanding standing_about_centre(const RangeOfMotion& limits, const JointAngles& at, bool in_contact,
                                    PoseStanding standing) {
   const bool knows_bearing = limits.bearing_rule() == motion::BearingRule::leave_out,
@@ -50,8 +32,7 @@ PoseStanding standing_about_centre(const RangeOfMotion& limits, const JointAngle
     return standing;
   }
   const bool is_strained = standing.nearest->end.reason == motion::LimitReason::strained_at_start;
-  standing.nearest = end_just_behind(limits, at);
-  if (standing.nearest) standing.nearest->end.turned = Angle();
+  standing.nearest = limits.end_behind(at, at_limit_within);
   if (!standing.nearest && !is_strained && !knows_bearing) return in_contact_unknown();
   standing.state = standing.nearest        ? PoseState::at_limit
                    : is_strained && !meets ? PoseState::strained

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -27,22 +28,27 @@ namespace {
 /// One body as it counts: its features, and the numbers its triangles have in the whole mesh.
 struct IncludedBody {
   Mesh mesh;
-  FeatureTree tree;
   std::vector<Index> triangle_in_whole;
+  core::Lazy<std::optional<FeatureTree>> made_tree = {};
 
   explicit IncludedBody(PartOfMesh part)
-      : mesh(std::move(part.mesh)), tree(mesh), triangle_in_whole(std::move(part.triangle_in_whole)) {}
+      : mesh(std::move(part.mesh)), triangle_in_whole(std::move(part.triangle_in_whole)) {}
   /// The same triangles over vertices elsewhere.
   IncludedBody(const IncludedBody& before, const Points& vertices)
-      : mesh(before.mesh.moved_to(vertices)),
-        tree(before.tree.moved_to(vertices)),
-        triangle_in_whole(before.triangle_in_whole) {}
+      : mesh(before.mesh.moved_to(vertices)), triangle_in_whole(before.triangle_in_whole) {
+    made_tree.get([&](auto& made) { made.emplace(before.tree().moved_to(vertices)); });
+  }
+
+  const FeatureTree& tree() const {
+    return *made_tree.get([&](auto& made) { made.emplace(mesh); });
+  }
 
   /// Vertices that its triangles use, spread over all of it: neighbours in the tree are neighbours in space.
   Points spread_vertices(std::size_t most) const {
     Points spread;
-    const std::size_t step = std::max<std::size_t>(1, tree.vertices().size() / most);
-    for (std::size_t v = 0; v < tree.vertices().size(); v += step) spread.push_back(tree.vertices()[v]);
+    const std::span<const Vec3> vertices = tree().vertices();
+    const std::size_t step = std::max<std::size_t>(1, vertices.size() / most);
+    for (std::size_t v = 0; v < vertices.size(); v += step) spread.push_back(vertices[v]);
     return spread;
   }
 
@@ -87,6 +93,21 @@ AxisFrame flexion_axis(CoordinateSystem system) {
   return {Vec3::Zero(), axis_of(JointAngle::flexion, system, {})};
 }
 
+AxisFrame adduction_axis(CoordinateSystem system, const JointAngles& start) {
+  return {Vec3::Zero(), axis_of(JointAngle::adduction, system, start)};
+}
+
+/// How the body that rests is made ready for a search.
+enum class Resting {
+  by_table,          ///< all of it, for many searches
+  as_far_as_looked,  ///< for those of one pose
+};
+
+RotatingBody& made(std::optional<RotatingBody>& body, const FeatureTree& tree) {
+  if (!body) body.emplace(tree);
+  return *body;
+}
+
 }  // namespace
 
 struct RangeOfMotion::Parts {
@@ -101,14 +122,14 @@ struct RangeOfMotion::Parts {
     FixedPart(const FixedPart& before, const Points& vertices) : body(before.body, vertices) {}
 
     const RotationTable& flexion_table(CoordinateSystem axes) const {
-      return *about_flexion.get([&](auto& made) { made.emplace(body.tree, flexion_axis(axes)); });
+      return *about_flexion.get([&](auto& made) { made.emplace(body.tree(), flexion_axis(axes)); });
     }
 
     /// About the axis that the angles of a start have.
     std::shared_ptr<const std::optional<RotationTable>> adduction_table(CoordinateSystem axes,
                                                                         const JointAngles& start) const {
       return adduction_tables.get(start.flexion, [&](std::optional<RotationTable>& table) {
-        table.emplace(body.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, axes, start)));
+        table.emplace(body.tree(), adduction_axis(axes, start));
       });
     }
   };
@@ -117,21 +138,21 @@ struct RangeOfMotion::Parts {
   struct MobilePart {
     IncludedBody body;
     AxisFrame rotation_axis;
-    Points probed_vertices;
+    core::Lazy<Points> probed = {};
     core::Lazy<std::optional<RotationTable>> table = {};
 
     MobilePart(PartOfMesh part, CoordinateSystem system)
-        : body(std::move(part)),
-          rotation_axis(rotation_axis_in_M(system)),
-          probed_vertices(body.spread_vertices(most_probed_vertices)) {}
+        : body(std::move(part)), rotation_axis(rotation_axis_in_M(system)) {}
     MobilePart(const MobilePart& before, const Points& vertices)
-        : body(before.body, vertices),
-          rotation_axis(before.rotation_axis),
-          probed_vertices(body.spread_vertices(most_probed_vertices)) {}
+        : body(before.body, vertices), rotation_axis(before.rotation_axis) {}
+
+    const Points& probed_vertices() const {
+      return probed.get([&](Points& made) { made = body.spread_vertices(most_probed_vertices); });
+    }
 
     /// The part stationary about the axis of internal rotation.
     const RotationTable& rotation_table() const {
-      return *table.get([&](auto& made) { made.emplace(body.tree, rotation_axis); });
+      return *table.get([&](auto& made) { made.emplace(body.tree(), rotation_axis); });
     }
   };
 
@@ -150,7 +171,7 @@ struct RangeOfMotion::Parts {
 
   /// Storage of one thread for a part of the fixed body: ready to rotate, and the table of the flexion of its last adduction.
   struct FixedWorker {
-    RotatingBody rotating;
+    std::optional<RotatingBody> rotating = {};
     std::optional<Angle> flexion = {};
     std::shared_ptr<const std::optional<RotationTable>> adduction_table = {};
     /// About the axis whose contacts it last collected.
@@ -158,12 +179,11 @@ struct RangeOfMotion::Parts {
   };
   struct Worker {
     std::vector<FixedWorker> fixed;
-    std::vector<RotatingBody> mobile;
+    std::vector<std::optional<RotatingBody>> mobile;
+    /// Bodies at rest for single poses, by the angle that varies and the number of their part.
+    std::map<std::pair<JointAngle, std::size_t>, std::optional<RotatingBody>> resting = {};
 
-    explicit Worker(const Parts& parts) {
-      for (const auto& part : parts.fixed) fixed.push_back({RotatingBody(part->body.tree)});
-      for (const auto& part : parts.mobile) mobile.emplace_back(part->body.tree);
-    }
+    explicit Worker(const Parts& parts) : fixed(parts.fixed.size()), mobile(parts.mobile.size()) {}
   };
   mutable core::PerThread<Worker> workers;
 
@@ -220,31 +240,47 @@ struct RangeOfMotion::Parts {
     return **of_part.adduction_table;
   }
 
-  /// One part of each body, ready to turn by an angle from its start: whichever has the axis at rest has its table.
-  struct Rotation {
-    const RotationTable& stationary;
-    RotatingBody& rotating;
-  };
-  Rotation rotation_of(Worker& worker, const PairOfParts& pair, JointAngle vary,
-                       const JointAngles& start) const {
+  /// The body that rotates, at its start about this axis, which is seen in the other one.
+  RotatingBody& started(Worker& worker, const PairOfParts& pair, JointAngle vary, const JointAngles& start,
+                        const AxisFrame& axis) const {
+    const bool fixed_rotates = vary == JointAngle::internal_rotation;
+    RotatingBody& body = fixed_rotates
+                             ? made(worker.fixed[pair.fixed].rotating, fixed[pair.fixed]->body.tree())
+                             : made(worker.mobile[pair.mobile], mobile[pair.mobile]->body.tree());
     const Pose X_FM = pose_at(system, start);
-    const auto started = [&](const RotationTable& table, RotatingBody& body, const Pose& X) {
-      body.start_at(table.frame(), X);
-      return Rotation{table, body};
-    };
-    RotatingBody& rotating = worker.mobile[pair.mobile];
-    return vary == JointAngle::internal_rotation ? started(mobile[pair.mobile]->rotation_table(),
-                                                           worker.fixed[pair.fixed].rotating, inverted(X_FM))
-           : vary == JointAngle::adduction
-               ? started(adduction_table(worker, pair.fixed, start), rotating, X_FM)
-               : started(fixed[pair.fixed]->flexion_table(system), rotating, X_FM);
+    body.start_at(axis, fixed_rotates ? inverted(X_FM) : X_FM);
+    return body;
+  }
+
+  /// The table of the body in which the axis is at rest.
+  const RotationTable& table_of(Worker& worker, const PairOfParts& pair, JointAngle vary,
+                                const JointAngles& start) const {
+    return vary == JointAngle::internal_rotation ? mobile[pair.mobile]->rotation_table()
+           : vary == JointAngle::adduction       ? adduction_table(worker, pair.fixed, start)
+                                                 : fixed[pair.fixed]->flexion_table(system);
+  }
+
+  /// The same body, ready as far as searches have looked.
+  RotatingBody& resting_body(Worker& worker, const PairOfParts& pair, JointAngle vary,
+                             const JointAngles& start) const {
+    const bool is_mobile = vary == JointAngle::internal_rotation;
+    const FeatureTree& tree = is_mobile ? mobile[pair.mobile]->body.tree() : fixed[pair.fixed]->body.tree();
+    RotatingBody& body = made(worker.resting[{vary, is_mobile ? pair.mobile : pair.fixed}], tree);
+    body.start_at(is_mobile                       ? mobile[pair.mobile]->rotation_axis
+                  : vary == JointAngle::adduction ? adduction_axis(system, start)
+                                                  : flexion_axis(system),
+                  Pose::Identity());
+    return body;
   }
 
   /// First contact of one part of each body.
   RotationLimits first_contact(Worker& worker, const PairOfParts& pair, JointAngle vary,
-                               const JointAngles& start, const RotationRange& range) const {
-    const Rotation rotation = rotation_of(worker, pair, vary, start);
-    RotationLimits limits = motion::first_contact(rotation.stationary, rotation.rotating, range);
+                               const JointAngles& start, const RotationRange& range, Resting resting) const {
+    const auto search = [&](auto& stationary) {
+      return motion::first_contact(stationary, started(worker, pair, vary, start, stationary.frame()), range);
+    };
+    RotationLimits limits = resting == Resting::by_table ? search(table_of(worker, pair, vary, start))
+                                                         : search(resting_body(worker, pair, vary, start));
     for (Limit* limit : {&limits.negative, &limits.positive})
       if (limit->contact)
         finish(*limit->contact, pair,
@@ -254,8 +290,8 @@ struct RangeOfMotion::Parts {
 
   /// First contact that ends a motion, or the strain of a ligament.
   RotationLimits first_end(Worker& worker, JointAngle vary, const JointAngles& start,
-                           const RotationRange& range) const {
-    RotationLimits limits = first_impingement(worker, vary, start, range);
+                           const RotationRange& range, Resting resting = Resting::by_table) const {
+    RotationLimits limits = first_impingement(worker, vary, start, range, resting);
     if (!ligaments.empty()) ligaments.take_sooner(limits, about(vary, start), pose_at(system, start), range);
     return limits;
   }
@@ -265,10 +301,10 @@ struct RangeOfMotion::Parts {
   }
 
   RotationLimits first_impingement(Worker& worker, JointAngle vary, const JointAngles& start,
-                                   const RotationRange& range) const {
-    RotationLimits limits = first_contact(worker, impinging.front(), vary, start, range);
+                                   const RotationRange& range, Resting resting) const {
+    RotationLimits limits = first_contact(worker, impinging.front(), vary, start, range, resting);
     for (std::size_t i = 1; i < impinging.size() && limits.free_at_start(); ++i) {
-      const RotationLimits more = first_contact(worker, impinging[i], vary, start, range);
+      const RotationLimits more = first_contact(worker, impinging[i], vary, start, range, resting);
       const auto take_sooner = [&](Limit& limit, const Limit& other) {
         if (other.reason == LimitReason::contact_at_start || other.turned < limit.turned ||
             limit.reason == LimitReason::end_of_range)
@@ -306,15 +342,15 @@ struct RangeOfMotion::Parts {
     // contact, without a pair of triangles; the ends of intervals remain.
     if (rings) {
       const tangential::OccupiedArcs arcs =
-          rings->occupied_arcs(posed(pose_at(system, start), mobile[pair.mobile]->probed_vertices.view()));
+          rings->occupied_arcs(posed(pose_at(system, start), mobile[pair.mobile]->probed_vertices().view()));
       for (std::size_t v = 0; v < arcs.size(); ++v)
         for (const tangential::OccupiedArc& arc : arcs.of(v)) {
           const Angle width = arc.end - arc.begin - arc_slack * 2;
           if (width > narrowest_arc) known.push_back({arc.begin + arc_slack, width});
         }
     }
-    const Rotation rotation = rotation_of(worker, pair, vary, start);
-    return motion::contact_set(rotation.stationary, rotation.rotating, core::ArcSet(known));
+    const RotationTable& table = table_of(worker, pair, vary, start);
+    return motion::contact_set(table, started(worker, pair, vary, start, table.frame()), core::ArcSet(known));
   }
 
   /// Angles of contact between all parts whose contact ends a motion.
@@ -333,8 +369,8 @@ struct RangeOfMotion::Parts {
       head.centre_distance_mm = (posed(X_FM, surface.head.centre) - surface.socket->centre).norm();
     for (const PairOfParts& pair : earlier) {
       if (pair.kind != ContactKind::bearing) continue;
-      const auto nearest = mesh::closest_points(fixed[pair.fixed]->body.tree.triangle_tree(),
-                                                mobile[pair.mobile]->body.tree.triangle_tree(), X_FM);
+      const auto nearest = mesh::closest_points(fixed[pair.fixed]->body.tree().triangle_tree(),
+                                                mobile[pair.mobile]->body.tree().triangle_tree(), X_FM);
       if (nearest)
         head.joint_space_mm =
             std::min(nearest->distance_mm, head.joint_space_mm.value_or(nearest->distance_mm));
@@ -388,8 +424,8 @@ RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& st
   RotationLimits limits = parts_->first_end(worker, vary, start, range);
   if (!limits.free_at_start()) return limits;
   for (const PairOfParts& pair : parts_->earlier) {
-    const RotationLimits earlier =
-        parts_->first_contact(worker, pair, vary, start, {-limits.negative.turned, limits.positive.turned});
+    const RotationLimits earlier = parts_->first_contact(
+        worker, pair, vary, start, {-limits.negative.turned, limits.positive.turned}, Resting::by_table);
     const bool is_soft = pair.kind == ContactKind::soft;
     for (const auto limit : {&RotationLimits::negative, &RotationLimits::positive}) {
       Limit& end = limits.*limit;
@@ -494,7 +530,8 @@ std::optional<NearestEnd> RangeOfMotion::nearest_end(const JointAngles& start) c
   Angle within = Angle::degrees(180);
   for (const JointAngle vary : all_joint_angles) {
     if (kind() == JointKind::hinge && vary != JointAngle::flexion) continue;
-    const RotationLimits both = parts_->first_end(parts_->workers.local(), vary, start, {-within, within});
+    const RotationLimits both =
+        parts_->first_end(parts_->workers.local(), vary, start, {-within, within}, Resting::as_far_as_looked);
     for (const RotationSense sense : {RotationSense::negative, RotationSense::positive}) {
       const Limit& end = sense == RotationSense::negative ? both.negative : both.positive;
       if (end.reason == LimitReason::end_of_range || (nearest && !(end.turned < within))) continue;
@@ -506,12 +543,29 @@ std::optional<NearestEnd> RangeOfMotion::nearest_end(const JointAngles& start) c
   return nearest;
 }
 
+std::optional<NearestEnd> RangeOfMotion::end_behind(const JointAngles& start, Angle within) const {
+  for (const JointAngle vary : all_joint_angles) {
+    if (kind() == JointKind::hinge && vary != JointAngle::flexion) continue;
+    for (const RotationSense back : {RotationSense::negative, RotationSense::positive}) {
+      const bool is_back = back == RotationSense::negative;
+      const RotationLimits both = parts_->first_end(
+          parts_->workers.local(), vary, turned_by(start, vary, within * sign_of(back)),
+          {is_back ? Angle() : within * -2, is_back ? within * 2 : Angle()}, Resting::as_far_as_looked);
+      Limit end = is_back ? both.positive : both.negative;
+      if (!both.free_at_start() || end.reason == LimitReason::end_of_range) continue;
+      end.turned = Angle();
+      return NearestEnd{end, vary, is_back ? RotationSense::positive : RotationSense::negative};
+    }
+  }
+  return std::nullopt;
+}
+
 double RangeOfMotion::clearance_mm(const Pose& X_FM) const {
   double least = std::numeric_limits<double>::infinity();
   for (const PairOfParts& pair : parts_->impinging)
     if (const auto nearest =
-            mesh::closest_points(parts_->fixed[pair.fixed]->body.tree.triangle_tree(),
-                                 parts_->mobile[pair.mobile]->body.tree.triangle_tree(), X_FM, least))
+            mesh::closest_points(parts_->fixed[pair.fixed]->body.tree().triangle_tree(),
+                                 parts_->mobile[pair.mobile]->body.tree().triangle_tree(), X_FM, least))
       least = nearest->distance_mm;
   return least;
 }
