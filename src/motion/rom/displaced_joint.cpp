@@ -58,12 +58,21 @@ class Surface {
           const kinematics::DisplacedParts& parts)
       : vertices_(joint, role, sigma), parts_(parts), tree_(part) {}
 
-  /// Its vertices moved by so many standard deviations; empty if they stay where they are.
-  std::optional<Points> moved_by(double standard_deviations, std::span<const double> parameters) const {
-    return vertices_.moved_by(standard_deviations, parts_, parameters);
+  /// Where its vertices lie: so many times their directions from where they are, or, if its parts move too, here.
+  struct Placed {
+    double along;
+    std::optional<Points> moved;
+  };
+  Placed moved_by(double standard_deviations, std::span<const double> parameters) const {
+    const auto along = vertices_.along_directions(standard_deviations, parts_, parameters);
+    return along ? Placed{*along, {}}
+                 : Placed{0, vertices_.moved_by(standard_deviations, parts_, parameters)};
   }
-  RotatingBody body(const std::optional<Points>& moved) const {
-    return moved ? RotatingBody(tree_, *moved) : RotatingBody(tree_);
+  RotatingBody body(const Placed& placed) const {
+    return placed.moved ? RotatingBody(tree_, *placed.moved)
+           : placed.along == 0
+               ? RotatingBody(tree_)
+               : RotatingBody(tree_, vertices_.directions(), vertices_.longest_direction(), placed.along);
   }
 
  private:
@@ -105,13 +114,13 @@ struct DisplacedJoint::Parts {
   /// Where these surfaces end a motion sooner than noted.
   void take_limits(const Displacement& d, const Surface& of_fixed, const Surface& of_mobile,
                    std::span<DisplacedLimit> out) const {
-    const std::optional<Points> fixed = of_fixed.moved_by(d.fixed_surface, d.parameters),
-                                mobile = of_mobile.moved_by(d.mobile_surface, d.parameters);
+    const Surface::Placed fixed = of_fixed.moved_by(d.fixed_surface, d.parameters),
+                          mobile = of_mobile.moved_by(d.mobile_surface, d.parameters);
     // Only those that a motion turns or lets rest are made.
     std::optional<RotatingBody> stationary_fixed, stationary_mobile, rotating_fixed, rotating_mobile;
     const auto made = [](std::optional<RotatingBody>& body, const Surface& of,
-                         const std::optional<Points>& moved) -> RotatingBody& {
-      return body ? *body : body.emplace(of.body(moved));
+                         const Surface::Placed& placed) -> RotatingBody& {
+      return body ? *body : body.emplace(of.body(placed));
     };
 
     const Pose X_FG = displaced_frame(d);

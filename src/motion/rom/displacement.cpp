@@ -7,6 +7,14 @@
 #include "mesh/vertex_normals.hpp"
 
 namespace condyle::motion {
+namespace {
+
+bool all_rest(const std::vector<Eigen::Affine3d>& motions) {
+  return std::all_of(motions.begin(), motions.end(),
+                     [](const auto& motion) { return motion.matrix().isIdentity(0); });
+}
+
+}  // namespace
 
 Pose displaced_frame(const Displacement& by) {
   Pose X_FG = Pose::Identity();
@@ -26,6 +34,7 @@ MovableSurface::MovableSurface(const Body& body, const Uncertainty& sigma)
     directions_.set(v, sigma.is_by_voxels(body)
                            ? Vec3(sigma.surface_voxels * body.image->voxel_width_mm(normal) * normal)
                            : normal);
+    longest_ = std::max(longest_, directions_[v].norm());
   }
 }
 
@@ -52,11 +61,16 @@ std::optional<Points> MovableSurface::moved_by(double standard_deviations,
                                                std::span<const double> parameters) const {
   auto moved = moved_by(standard_deviations);
   const std::vector<Eigen::Affine3d> motions = parts.motions(parameters);
-  if (std::all_of(motions.begin(), motions.end(), [](const auto& m) { return m.matrix().isIdentity(0); }))
-    return moved;
+  if (all_rest(motions)) return moved;
   if (!moved) moved = vertices_;
   parts.groups().move(motions, *moved);
   return moved;
+}
+
+std::optional<double> MovableSurface::along_directions(double standard_deviations,
+                                                       const kinematics::DisplacedParts& parts,
+                                                       std::span<const double> parameters) const {
+  return all_rest(parts.motions(parameters)) ? std::optional(sigma_ * standard_deviations) : std::nullopt;
 }
 
 }  // namespace condyle::motion

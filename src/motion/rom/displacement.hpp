@@ -45,10 +45,16 @@ class MovableSurface {
   /// The same, its parts displaced too.
   std::optional<Points> moved_by(double standard_deviations, const kinematics::DisplacedParts& parts,
                                  std::span<const double> parameters) const;
+  /// The same as so many times its direction for each vertex, for those who move few; empty if its parts move too.
+  std::optional<double> along_directions(double standard_deviations, const kinematics::DisplacedParts& parts,
+                                         std::span<const double> parameters) const;
+  const Points& directions() const noexcept { return directions_; }
+  double longest_direction() const noexcept { return longest_; }
 
  private:
   Points vertices_, directions_;
-  double sigma_;  ///< of the length along the directions
+  double sigma_;        ///< of the length along the directions
+  double longest_ = 0;  ///< direction
 };
 
 /// Quantile of sorted values, linear between neighbours (type 7 of Hyndman and Fan 1996).

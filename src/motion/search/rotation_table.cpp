@@ -69,7 +69,10 @@ RotatingBody::RotatingBody(const FeatureTree& tree)
       node_mark_(tree.nodes().size(), 0),
       leaf_mark_(tree.nodes().size(), 0),
       vertex_mark_(tree.vertices().size(), 0) {
-  for (const Vec3& p : tree.vertices()) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
+  if (tree.empty()) return;
+  const Node& root = tree.nodes().front();
+  for (std::size_t k = 0; k < 3; ++k)
+    extent_ = std::max(extent_, static_cast<double>(std::abs(root.centre[k])) + root.half[k]);
 }
 
 RotatingBody::RotatingBody(const FeatureTree& tree, const Points& moved) : RotatingBody(tree) {
@@ -79,6 +82,13 @@ RotatingBody::RotatingBody(const FeatureTree& tree, const Points& moved) : Rotat
     farthest = std::max(farthest, (moved[tree.mesh_vertex(v)] - tree.vertices()[v]).squaredNorm());
   // More than the roundings of the sum and of the root.
   moved_by_ = std::sqrt(farthest) * (1 + 1e-12);
+  extent_ += moved_by_;
+}
+
+RotatingBody::RotatingBody(const FeatureTree& tree, const Points& directions, double longest, double by)
+    : RotatingBody(tree) {
+  directions_ = &directions, along_ = by;
+  moved_by_ = std::abs(by) * longest * (1 + 1e-12);
   extent_ += moved_by_;
 }
 
@@ -103,7 +113,8 @@ void RotatingBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
 void RotatingBody::place_vertex(Index vertex) {
   if (vertex_mark_[vertex] == pose_number_) return;
   vertex_mark_[vertex] = pose_number_;
-  const Vec3 own = moved_ ? Vec3((*moved_)[tree_->mesh_vertex(vertex)]) : tree_->vertices()[vertex];
+  Vec3 own = moved_ ? Vec3((*moved_)[tree_->mesh_vertex(vertex)]) : tree_->vertices()[vertex];
+  if (directions_) own += along_ * (*directions_)[tree_->mesh_vertex(vertex)];
   const Point p = triple(frame_.to_axis(posed(X_RT_, own)));
   features_.points[vertex] = p;
   features_.at[vertex] = cylinder_point(p);

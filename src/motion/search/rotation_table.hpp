@@ -77,6 +77,9 @@ class RotatingBody {
   /// The same surface with its vertices elsewhere, one for each of the mesh's, which must outlive this: as with the tree moved there, which takes
   /// longer than one search. Boxes in the tree are taken wider by the farthest move.
   RotatingBody(const FeatureTree& tree, const Points& moved);
+  /// The same with each of the mesh's vertices moved by so many times its direction, none of which is longer than `longest`: only those that
+  /// searches look at are moved.
+  RotatingBody(const FeatureTree& tree, const Points& directions, double longest, double by);
 
   /// Starts at X_RT, the pose of the rotating body T measured in the stationary body R, about the axis given in
   /// R. Prepared parts stay ready if it starts there already.
@@ -111,7 +114,8 @@ class RotatingBody {
   /// nor nearer.
   double origins_apart_ = 0;
   double extent_ = 0;
-  const Points* moved_ = nullptr;
+  const Points *moved_ = nullptr, *directions_ = nullptr;
+  double along_ = 0;     ///< times its direction each vertex is moved
   double moved_by_ = 0;  ///< no vertex is moved farther, mm
   CylinderFeatures features_;
   /// A node or vertex is ready where its mark is the number of the current pose.
