@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,7 @@ namespace {
 
 struct LoadArguments : JointArguments {
   std::string pose;
+  std::optional<std::string> about;
   io::ContactChanges contact;
   BalanceArguments balance;
 };
@@ -33,6 +35,8 @@ void load_command(const LoadArguments& options, const CLI::App& command) {
   require_load(options.balance, options.balance.any());
   if (options.balance.any()) request.load = load_of(options.balance);
   if (request.load) request.balance = balance_options_of(options.balance, joint);
+  if (options.about)
+    request.about = io::arcs_about(*options.about, joint.anatomy), request.system = joint.coordinates();
   const io::LoadQuestion question{
       joint, given.pose, given.X_FM, surfaces, contact, request.load, noted(loaded, options.strictness),
       &from};
@@ -63,6 +67,8 @@ void add_load(CLI::App& app) {
   add_value(*command, "--pose", options->pose, "POSE (all 0)",
             "Compute in this pose, or start from it: angles in degrees and, of a free joint, x, y, z in mm, "
             "such as \"flexion=30 x=2\"; or 16 numbers, the matrix X_FM row by row");
+  add_value(*command, "--about", options->about, "ANGLE|AXIS [POINT]",
+            "Give depths along arcs about this angle's axis, or about an axis, too, as condyle depth");
   add_rays(*command, options->contact);
   add_layers(*command, options->contact);
   add_balance(*command, options->balance);
@@ -73,7 +79,8 @@ void add_load(CLI::App& app) {
   group_help(
       *command,
       {{"Most used", {"--pose", "--force", "--e", "--nu", "--thickness"}},
-       {"Question", {"--set", "--moment", "--force-frame", "--along", "--free-rotations", "--ligaments"}},
+       {"Question",
+        {"--set", "--moment", "--force-frame", "--along", "--free-rotations", "--ligaments", "--about"}},
        {"Contact", {"--law", "--casting", "--rule", "--reach"}},
        {"Output", {"--out", "--json", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { load_command(*options, *command); });

@@ -16,6 +16,17 @@ bool translates(const DepthRequest& request) {
   return request.X_FM.translation() != Vec3::Zero();
 }
 
+/// A line has a direction; an angle's axis goes through the joint centre, where the mobile body has to be.
+void check_arcs(const contact::ArcsAbout& about, const Pose& X_FM) {
+  if (const auto* line = std::get_if<contact::AxisLine>(&about))
+    static_cast<void>(AxisFrame(line->point, line->direction));
+  else if (X_FM.translation() != Vec3::Zero())
+    throw UsageError(
+        core::formatted("method tangential: turns about the joint centre, and the pose is translated from it "
+                        "by %.3f mm; method radial answers there, or arcs about a line",
+                        X_FM.translation().norm()));
+}
+
 /// As all depths along rays and arcs need them.
 void add_measures(DepthAnswer& answer, const contact::JointContact& bodies,
                   const contact::MeasuredContact& contact) {
@@ -40,13 +51,8 @@ void add_ray_depths(DepthAnswer& answer, const contact::JointContact& bodies, co
 
 void add_arc_depths(DepthAnswer& answer, const contact::JointContact& bodies, const Joint& joint) {
   const DepthRequest& request = answer.request;
-  const contact::ArcsAbout about = request.about.value_or(JointAngle::flexion);
-  const contact::AxisLine line = line_of(about, joint.coordinates(), *request.pose);
-  ArcDepths depths{{{}, line.direction, line.point}, bodies.tangential(request.X_FM, line)};
-  if (const auto* angle = std::get_if<JointAngle>(&about))
-    depths.axis.about = *angle;
-  else
-    depths.axis.direction_F = AxisFrame(line.point, line.direction).direction();
+  ArcDepths depths = arc_depths(bodies, request.about.value_or(JointAngle::flexion), joint.coordinates(),
+                                request.X_FM, *request.pose);
   add_measures(answer, bodies, contact::MeasuredContact(depths.contact));
   answer.depths = std::move(depths);
 }
@@ -118,18 +124,25 @@ contact::AxisLine line_of(const contact::ArcsAbout& about, const CoordinateSyste
   return {axis_of(std::get<JointAngle>(about), system, at)};
 }
 
+ArcDepths arc_depths(const contact::JointContact& bodies, const contact::ArcsAbout& about,
+                     const CoordinateSystem& system, const Pose& X_FM, const JointAngles& at) {
+  check_arcs(about, X_FM);
+  const contact::AxisLine line = line_of(about, system, at);
+  ArcDepths depths{{{}, line.direction, line.point}, bodies.tangential(X_FM, line)};
+  if (const auto* angle = std::get_if<JointAngle>(&about))
+    depths.axis.about = *angle;
+  else
+    depths.axis.direction_F = AxisFrame(line.point, line.direction).direction();
+  return depths;
+}
+
 void check_depth_request(const Joint& joint, const DepthRequest& request) {
   if (request.about && request.method != DepthMethod::tangential)
     throw UsageError("about: is for method tangential");
   if ((request.casting || request.rays) && request.method != DepthMethod::normal)
     throw UsageError("casting, rule, reach: are for method normal");
-  const auto* line = request.about ? std::get_if<contact::AxisLine>(&*request.about) : nullptr;
-  if (line) static_cast<void>(AxisFrame(line->point, line->direction));
-  if (request.method == DepthMethod::tangential && !line && translates(request))
-    throw UsageError(
-        core::formatted("method tangential: turns about the joint centre, and the pose is translated from it "
-                        "by %.3f mm; method radial answers there, or arcs about a line",
-                        request.X_FM.translation().norm()));
+  if (request.method == DepthMethod::tangential)
+    check_arcs(request.about.value_or(JointAngle::flexion), request.X_FM);
   if (!request.pose) return;
   const Eigen::Matrix3d difference =
       pose_at(joint.coordinates(), *request.pose).linear() - request.X_FM.linear();

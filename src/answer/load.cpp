@@ -30,10 +30,14 @@ LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadReques
   answer.cut_off_by_reach = surfaces.cut_off_by_reach(answer.X_FM);
   answer.refined_force_n = surfaces.refined_force_n(answer.X_FM);
   motion::add_new(answer.notes, motion::check_contact(answer.contact, request.names));
+  if (!request.limits && !request.about) return answer;
+  const contact::JointContact bodies(surfaces.fixed(), surfaces.mobile());
   if (request.limits)
-    answer.standing = pose_standing(
-        *request.limits, angles_at(request.limits->coordinates(), answer.X_FM), answer.X_FM.translation(),
-        !contact::JointContact(surfaces.fixed(), surfaces.mobile()).pairs(answer.X_FM).empty());
+    answer.standing = pose_standing(*request.limits, angles_at(request.limits->coordinates(), answer.X_FM),
+                                    answer.X_FM.translation(), !bodies.pairs(answer.X_FM).empty());
+  if (request.about)
+    answer.arcs = arc_depths(bodies, *request.about, request.system, answer.X_FM,
+                             angles_at(request.system, answer.X_FM));
   return answer;
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "condyle/answer.hpp"
 #include "support/cup.hpp"
 #include "support/test.hpp"
@@ -57,6 +59,24 @@ TEST_F(LoadAnswers, ThatCarryNothingSayWhy) {
   EXPECT_EQ(answer.balanced->outcome, contact::BalanceOutcome::pulled_apart);
   EXPECT_FALSE(contact::reason_of(*answer.balanced).empty());
   EXPECT_FALSE(answer.refined_force_n);
+}
+
+// The block's corners turn about the table's Z axis through (20, 0, 0): of the one at (-5, -h) on a circle of radius r the table's top is passed
+// by the angle between them, asin(h / r).
+TEST_F(LoadAnswers, HaveDepthsAlongArcsWhereTheLoadIsCarried) {
+  const LoadRequest request{.load = down,
+                            .balance = along_y,
+                            .about = contact::AxisLine{.direction = Vec3::UnitZ(), .point = {20, 0, 0}}};
+  const LoadAnswer answer = answer_load(layers, request);
+  ASSERT_TRUE(answer.arcs && answer.carries_load());
+  const auto summary = contact::summarise(*answer.arcs->contact.mobile_in_fixed);
+  EXPECT_EQ(summary.vertices_inside, 4u);
+  const double h = -answer.X_FM.translation().y(), near = std::hypot(15, h);
+  EXPECT_NEAR(summary.deepest->depth_mm, near * std::asin(h / near), 1e-9);
+  EXPECT_NEAR(summary.largest_angle->depth.radians(), std::asin(h / near), 1e-9);
+  LoadRequest flexion = request;
+  flexion.about = JointAngle::flexion;
+  EXPECT_THROW(answer_load(layers, flexion), UsageError) << "the block's centre is not the table's";
 }
 
 TEST_F(LoadAnswers, NoteLayersLoadAndContactOnce) {

@@ -79,6 +79,19 @@ TEST_F(Motion, AnswersSayWhatTheTrianglesSizeLeavesOpen) {
   EXPECT_EQ(answer("load cup.toml --pose y=-0.5 --rule face_centre")["refined_force_n"], nullptr);
 }
 
+TEST_F(Motion, ALoadHasTheArcsThatDepthHasAtItsPose) {
+  const Json load = answer("load cup.toml --force 0 -1500 0 --about '0 0 1 60 0 0'");
+  std::string matrix;
+  for (const Json& row : load["X_FM"])
+    for (const double number : row) matrix += fmt::format("{} ", number);
+  const Json depth =
+      answer("depth cup.toml --method tangential --about '0 0 1 60 0 0' --pose '" + matrix + "'");
+  ASSERT_GT(load["arcs"]["max_tangential_depth_mm"], 0);
+  for (const auto& [key, value] : load["arcs"].items()) EXPECT_EQ(value, depth[key]) << key;
+  EXPECT_TRUE(says(run("load cup.toml --force 0 -1500 0 --about '0 0 1 60 0 0'").out,
+                   "mm along the arc of the axis"));
+}
+
 TEST_F(Motion, ARecordingThatEndsInContactSaysSo) {
   write("swing.csv", "time,flexion_deg\n0,0\n0.1,30\n");
   const Json contact =

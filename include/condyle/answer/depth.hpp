@@ -97,6 +97,11 @@ struct DepthAnswer {
 [[nodiscard]] contact::AxisLine line_of(const contact::ArcsAbout& about, const CoordinateSystem& system,
                                         const JointAngles& at);
 
+/// Depths along arcs about an angle's axis at a pose with these angles, or about a line. Throws UsageError as line_of() and
+/// check_depth_request() do for arcs.
+[[nodiscard]] ArcDepths arc_depths(const contact::JointContact& bodies, const contact::ArcsAbout& about,
+                                   const CoordinateSystem& system, const Pose& X_FM, const JointAngles& at);
+
 /// Throws UsageError for options of another method, arcs about an angle's axis at a pose that translates, a line without a direction,
 /// and angles that are not those of X_FM.
 void check_depth_request(const Joint& joint, const DepthRequest& request);

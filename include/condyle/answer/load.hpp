@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/answer/case.hpp"
+#include "condyle/answer/depth.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/pressure.hpp"
 
@@ -22,6 +23,9 @@ struct LoadRequest {
   motion::BodyNames names = {};  ///< as notes call the bodies
   const motion::RangeOfMotion* limits =
       nullptr;  ///< limits_of_poses(), by which the pose is judged; null: it is not
+  /// Depths of the surfaces along arcs too, at the pose of the answer.
+  std::optional<contact::ArcsAbout> about = {};
+  CoordinateSystem system = {};  ///< of the joint, for an angle's axis
 };
 
 /// The pose requested, or the balanced one.
@@ -35,6 +39,7 @@ struct LoadAnswer {
   std::vector<motion::ContactNote> notes = {};         ///< what looks wrong with layers, load and contact
   std::vector<std::string> caveats = {};               ///< what an elastic foundation leaves out
   std::optional<PoseStanding> standing = {};           ///< of X_FM
+  std::optional<ArcDepths> arcs = {};                  ///< if requested
 
   /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are
   /// those at which the search stopped, and the numbers mean nothing.

@@ -128,6 +128,12 @@ std::string open_line(const Body& body);
 /// The angle about whose axis a depth of this kind goes; empty for those along a line.
 std::optional<JointAngle> angle_of(contact::DepthKind kind) noexcept;
 
+/// Of depths along arcs: the line of the axis, the contact's measures if there are any, the largest depths and the least gaps, under the keys
+/// of docs/depths.md; and the lines that say where the largest depths are.
+void add_arcs(Json& json, const DepthQuestion& question, const ArcDepths& depths,
+              const contact::ContactMeasures* measures = nullptr);
+std::string deepest_arcs_text(const DepthQuestion& question, const ArcDepths& depths);
+
 /// depth_result() of each method.
 DepthResult ray_result(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths);
 DepthResult arc_result(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths);

@@ -9,7 +9,9 @@
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/joint/depth_surfaces.hpp"
 #include "io/result/contact_terms.hpp"
+#include "io/result/depth_parts.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/pose_state.hpp"
@@ -100,6 +102,15 @@ std::string surface_text(const ContactEntry& contact, const Body& body,
   return text + oblique;
 }
 
+/// Of the answered pose, for depths along arcs.
+DepthQuestion depth_question(const LoadQuestion& question, const LoadAnswer& answer, const Joint& surfaces) {
+  return {.joint = surfaces,
+          .pose = question.pose,
+          .X_FM = answer.X_FM,
+          .notes = {},
+          .provenance = question.provenance};
+}
+
 }  // namespace
 
 std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
@@ -124,6 +135,10 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
                   core::rounded(load.force_n, 2), load.force_n.norm(), core::rounded(load.moment_nmm, 2));
+  if (answer.arcs) {
+    const Joint surfaces = joint_of_surfaces(question.contact, joint);
+    text += deepest_arcs_text(depth_question(question, answer, surfaces), *answer.arcs);
+  }
   for (const LigamentAlong& ligament : answer.ligaments)
     if (const auto& at = ligament.frames.front(); at && at->tension_n > 0)
       text +=
@@ -176,6 +191,10 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
     json["mobile_regions"] = regions_json(question.contact, question.surfaces.mobile, answer.contact.mobile);
   }
   add_standing(json, answer.standing, joint.anatomy);
+  if (answer.arcs) {
+    const Joint surfaces = joint_of_surfaces(question.contact, joint);
+    add_arcs(json["arcs"], depth_question(question, answer, surfaces), *answer.arcs);
+  }
   json["on_mobile"] = wrench_json(answer.contact.on_mobile);
   json["refined_force_n"] = answer.refined_force_n ? io::numbers(*answer.refined_force_n) : Json(nullptr);
   json["energy_nmm"] = answer.contact.energy_nmm;

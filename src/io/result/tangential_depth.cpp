@@ -63,21 +63,8 @@ std::string deepest_line(const char* what, std::string_view about, const Deepest
 }
 
 std::string arcs_json(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
-  const auto& [axis, contact] = depths;
-  const ArcViews bodies = views(question, contact);
-  const auto deepest = longest(bodies), furthest = largest(bodies);
   Json json = io::depth_header(question, answer, "tangential");
-  json["about"] = axis.about ? Json(name_of(*axis.about, question.joint.anatomy)) : Json(nullptr);
-  json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
-  json["axis_point_mm"] = io::numbers(question.frame().fixed_point(axis.point_F));
-  bodies.add_counts(json, contact.in_contact, contact.pairs.size());
-  io::add_measures(json, question, answer.measures);
-  json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
-  json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
-  io::add_deepest(json, deepest);
-  json["min_gap_deg"] = degrees_of(bodies.least(&contact::TangentialBodySummary::min_gap));
-  json["min_gap_mm"] = io::nullable(bodies.least(&contact::TangentialBodySummary::min_gap_mm));
-  for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
+  io::add_arcs(json, question, depths, &answer.measures);
   json["scope"] = scope_text(question.joint);
   json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
@@ -88,11 +75,7 @@ std::string arcs_text(const DepthQuestion& question, const DepthAnswer& answer, 
   const ArcViews bodies = views(question, contact);
   const std::string about = about_text(question, axis);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
-  const auto deepest = longest(bodies), furthest = largest(bodies);
-  if (deepest) text += deepest_line("deepest", about, *deepest);
-  if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex)) {
-    text += deepest_line("largest angle", about, *furthest);
-  }
+  text += io::deepest_arcs_text(question, depths);
   text += io::measures_text(question, answer.measures);
   for (const auto* view : bodies.both()) {
     if (!view->summary) {
@@ -145,6 +128,34 @@ std::vector<MeshArray> arrays_of(const std::optional<tangential::TangentialResul
 }
 
 }  // namespace
+
+void add_arcs(Json& json, const DepthQuestion& question, const ArcDepths& depths,
+              const contact::ContactMeasures* measures) {
+  const auto& [axis, contact] = depths;
+  const ArcViews bodies = views(question, contact);
+  const auto deepest = longest(bodies), furthest = largest(bodies);
+  json["about"] = axis.about ? Json(name_of(*axis.about, question.joint.anatomy)) : Json(nullptr);
+  json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
+  json["axis_point_mm"] = io::numbers(question.frame().fixed_point(axis.point_F));
+  bodies.add_counts(json, contact.in_contact, contact.pairs.size());
+  if (measures) io::add_measures(json, question, *measures);
+  json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
+  json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
+  io::add_deepest(json, deepest);
+  json["min_gap_deg"] = degrees_of(bodies.least(&contact::TangentialBodySummary::min_gap));
+  json["min_gap_mm"] = io::nullable(bodies.least(&contact::TangentialBodySummary::min_gap_mm));
+  for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
+}
+
+std::string deepest_arcs_text(const DepthQuestion& question, const ArcDepths& depths) {
+  const ArcViews bodies = views(question, depths.contact);
+  const std::string about = about_text(question, depths.axis);
+  const auto deepest = longest(bodies), furthest = largest(bodies);
+  std::string text = deepest ? deepest_line("deepest", about, *deepest) : "";
+  if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex))
+    text += deepest_line("largest angle", about, *furthest);
+  return text;
+}
 
 DepthResult arc_result(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
   const contact::TangentialContact& contact = depths.contact;
