@@ -154,7 +154,7 @@ class Touch {
 
   void find_deepest() {
     const Pose& X_FM = answer_.request.X_FM;
-    std::vector<Index> mobile_reaching, fixed_reaching;
+    contact::Reaching mobile_reaching, fixed_reaching;
     core::parallel_pair(
         [&] {
           if (fixed_is_solid_) mobile_reaching = pair_.reaching(BodyRole::mobile, X_FM, answer_.pairs);

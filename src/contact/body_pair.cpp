@@ -205,8 +205,7 @@ bool BodyPair::one_inside_other(const Pose& X_FM) const {
 
 /// A triangle that meets nothing is inside with every corner or with none: corners that such triangles connect are inside together. What is inside
 /// is connected with a corner of a triangle that meets something, or is a piece by itself.
-std::vector<Index> BodyPair::reaching(BodyRole body, const Pose& X_FM,
-                                      std::span<const TrianglePair> pairs) const {
+Reaching BodyPair::reaching(BodyRole body, const Pose& X_FM, std::span<const TrianglePair> pairs) const {
   const bool is_fixed = body == BodyRole::fixed;
   const Body& own = is_fixed ? fixed_ : mobile_;
   const BodyRole other = is_fixed ? BodyRole::mobile : BodyRole::fixed;
@@ -235,7 +234,9 @@ std::vector<Index> BodyPair::reaching(BodyRole body, const Pose& X_FM,
     is_set_inside = solids.holds(other, is_fixed ? vertices[v] : posed(X_FM, vertices[v]));
   }
   std::erase_if(at_other, [&](Index t) { return !meets(t) && !is_inside[connected.find(triangles[t][0])]; });
-  return at_other;
+  Reaching reaching{std::move(at_other), {}};
+  for (const Index t : reaching.places) reaching.meets.push_back(meets(t));
+  return reaching;
 }
 
 }  // namespace condyle::contact

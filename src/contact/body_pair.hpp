@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "contact/reaching.hpp"
 #include "core/lazy.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -35,9 +36,9 @@ class BodyPair {
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
 
   /// Which triangles of a body have a point inside the other's solid, or on it: those of `pairs`, and all that lie inside as a whole, which
-  /// meet none. Their places in its tree, ascending. Exact as pairs(), but that triangles without area may be among them, and what they lead to.
+  /// meet none. Exact as pairs(), but that triangles without area may be among them, and what they lead to.
   /// The other body has to be closed.
-  std::vector<Index> reaching(BodyRole body, const Pose& X_FM, std::span<const TrianglePair> pairs) const;
+  Reaching reaching(BodyRole body, const Pose& X_FM, std::span<const TrianglePair> pairs) const;
 
   /// Over the triangles of each body in its own frame.
   const mesh::TriangleTree& fixed_tree() const noexcept { return *fixed_.tree; }

@@ -31,9 +31,6 @@ constexpr std::size_t most_considered = 64;
 /// Every so often a part is halved, whatever else would cut it: its size then goes to zero.
 constexpr int cuts_per_halving = 4;
 
-/// Pieces that may be deeper by this factor than any place yet are worth a look at whether they are inside at all.
-constexpr double thin_share = 4;
-
 /// The search opens a node without a look at its middle if the node's radius is larger than this many best depths and than this share of the
 /// target's least half.
 constexpr double large_depths = 1.5, large_share = 0.1;
@@ -49,7 +46,7 @@ struct SurfacePart {
   Index near = no_index;           ///< a triangle of T that was nearest to what it is a part of
   Index through = no_index;        ///< one through which it may get inside, if its middle is outside
   int cuts = 0;
-  bool is_inside = false;   ///< every point of it
+  bool is_inside = false;   ///< every point of it; a place that is taken for it is looked at again
   bool is_sounded = false;  ///< the depth at the middle of the node is in its bound
 
   friend bool operator<(const SurfacePart& a, const SurfacePart& b) noexcept { return a.bound < b.bound; }
@@ -57,7 +54,7 @@ struct SurfacePart {
 
 /// A point against the target.
 struct Sounding {
-  double depth;   ///< below 0 outside
+  double depth;   ///< below 0 outside, if that was asked
   Index nearest;  ///< place of the triangle of T that is nearest
 };
 
@@ -110,13 +107,15 @@ LinearFunction plane_of(const CornerPoints& t) {
 class DepthSearch {
  public:
   DepthSearch(const mesh::TriangleTree& target, const mesh::TriangleTree& surface, const Pose& X_TS,
-              std::vector<Index> reaching, double deeper_than, std::size_t most_parts)
+              Reaching reaching, double deeper_than, std::size_t most_parts)
       : target_(target),
         surface_(surface),
         X_TS_(X_TS),
         distances_(target),
-        reaching_(std::move(reaching)),
+        reaching_(std::move(reaching.places)),
         most_parts_(most_parts) {
+    meeting_before_.push_back(0);
+    for (const char meets : reaching.meets) meeting_before_.push_back(meeting_before_.back() + (meets != 0));
     double size = X_TS.translation().cwiseAbs().maxCoeff();
     for (const auto* tree : {&target, &surface}) {
       const Node& root = tree->nodes().front();
@@ -147,10 +146,14 @@ class DepthSearch {
   }
 
  private:
-  Sounding sound(const Vec3& p, bool is_known_inside) {
+  /// The middle of what reaches so far from it; `near` is a triangle to begin with. On which side it is matters only if something there
+  /// could be deepest.
+  Sounding sound(const Vec3& p, double radius, bool is_known_inside, Index near) {
     ++parts_;
-    const double distance = distances_(p, nearest_);
-    return {is_known_inside || is_inside(p) ? distance : -distance, nearest_};
+    if (near != no_index) nearest_ = near;
+    const double distance = distances_(p, nearest_, best_.depth_mm - radius);
+    const bool matters = !is_known_inside && distance + radius > best_.depth_mm;
+    return {matters && !is_inside(p) ? -distance : distance, nearest_};
   }
 
   bool is_inside(const Vec3& p) const {
@@ -168,15 +171,18 @@ class DepthSearch {
     return core::ordered_norm(off) / node_slack;
   }
 
-  void consider(const Vec3& p, Index triangle, const Sounding& at) {
+  /// False of a place that would be deepest and is outside, though it was taken for inside.
+  bool consider(const Vec3& p, Index triangle, const Sounding& at) {
     // No more than rounding is none: the middle of a triangle need not lie on it to the last bit.
-    if (!(at.depth > std::max(best_.depth_mm, tolerance_))) return;
+    if (!(at.depth > std::max(best_.depth_mm, tolerance_))) return true;
+    if (!is_inside(p)) return false;
     is_found_ = true;
     best_.depth_mm = at.depth;
     best_.place = p;
     best_.exit = mesh::nearest_on_triangle(p, target_.corners(at.nearest));
     best_.triangle = surface_.mesh_triangles()[triangle];
     best_.target_triangle = target_.mesh_triangles()[at.nearest];
+    return true;
   }
 
   /// Points of the surface to compare bounds with: if all of it is about as deep, bounds alone would not come to one.
@@ -185,16 +191,24 @@ class DepthSearch {
     for (std::size_t i = 0; i < reaching_.size(); i += step) {
       const Vec3 p = posed(X_TS_, surface_.corners(reaching_[i])[0]);
       if (least_outside(p) > 0) continue;
-      const Sounding at = sound(p, true);
-      if (at.depth > best_.depth_mm && is_inside(p)) consider(p, reaching_[i], at);
+      consider(p, reaching_[i], sound(p, 0, true, no_index));
     }
   }
 
-  /// Places of the triangles of a node that reach into T.
-  std::span<const Index> reaching_of(const Node& node) const {
-    const Index* const end = reaching_.data() + reaching_.size();
-    const Index* const first = std::lower_bound(reaching_.data(), end, node.first);
-    return {first, std::lower_bound(first, end, node.last)};
+  /// The triangles of a node that reach into T, by their number among those that do.
+  struct ReachingOfNode {
+    std::size_t first, last;
+  };
+  ReachingOfNode reaching_of(const Node& node) const {
+    const auto first = std::lower_bound(reaching_.begin(), reaching_.end(), node.first);
+    const auto last = std::lower_bound(first, reaching_.end(), node.last);
+    return {static_cast<std::size_t>(first - reaching_.begin()),
+            static_cast<std::size_t>(last - reaching_.begin())};
+  }
+
+  /// Whether none of these meets T.
+  bool are_inside(const ReachingOfNode& range) const {
+    return meeting_before_[range.first] == meeting_before_[range.last];
   }
 
   /// About what a node holds, in T.
@@ -210,11 +224,14 @@ class DepthSearch {
   /// With the bound of what it is a part of, or by the triangle that was near there: cheaper than the nearest.
   void push_node(Index number, const SurfacePart& parent) {
     const Node& node = surface_.nodes()[number];
-    if (reaching_of(node).empty()) return;
+    const ReachingOfNode reaching = reaching_of(node);
+    if (reaching.first == reaching.last) return;
     const auto [centre, radius] = ball_around(node);
     if (const double off = least_outside(centre); off > 0 && !(radius - off > best_.depth_mm)) return;
-    SurfacePart part{
-        .bound = parent.bound, .node = number, .near = parent.near, .is_inside = parent.is_inside};
+    SurfacePart part{.bound = parent.bound,
+                     .node = number,
+                     .near = parent.near,
+                     .is_inside = parent.is_inside || are_inside(reaching)};
     if (part.near != no_index) {
       if (!(distance_to(centre, target_.corners(part.near)) + radius > best_.depth_mm)) return;
       part.bound = std::min(part.bound, farthest_of_box(part.near, node, centre));
@@ -230,7 +247,7 @@ class DepthSearch {
     if (!node.is_leaf() && radius > std::max(large_depths * best_.depth_mm,
                                              large_share * least_half_of(target_.nodes().front())))
       return open_node(part);
-    const Sounding at = sound(centre, part.is_inside);
+    const Sounding at = sound(centre, radius, part.is_inside, part.near);
     part.is_sounded = true;
     part.is_inside = part.is_inside || at.depth > radius;
     part.bound = std::min(part.bound, at.depth + radius);
@@ -246,13 +263,15 @@ class DepthSearch {
       push_node(node.child + 1, part);
       return;
     }
-    for (const Index t : reaching_of(node)) {
+    const ReachingOfNode reaching = reaching_of(node);
+    for (std::size_t i = reaching.first; i < reaching.last; ++i) {
+      const Index t = reaching_[i];
       const CornerPoints own = surface_.corners(t);
       push_piece({.bound = part.bound,
                   .triangle = t,
                   .corners = {posed(X_TS_, own[0]), posed(X_TS_, own[1]), posed(X_TS_, own[2])},
                   .near = part.near,
-                  .is_inside = part.is_inside});
+                  .is_inside = part.is_inside || are_inside({i, i + 1})});
     }
   }
 
@@ -285,14 +304,14 @@ class DepthSearch {
     if (!(part.bound > best_.depth_mm + tolerance_)) return;
     const Vec3 middle = middle_of_corners(part.corners);
     const double radius = radius_about(part.corners, middle);
-    const Sounding at = sound(middle, part.is_inside);
-    consider(middle, part.triangle, at);
+    Sounding at = sound(middle, radius, part.is_inside, part.near);
+    if (!consider(middle, part.triangle, at)) part.is_inside = false, at.depth = -at.depth;
     part.is_inside = part.is_inside || at.depth > radius;
     part.near = at.nearest;
     part.bound = std::min({part.bound, at.depth + radius, farthest_from(at.nearest, part)});
     if (!(part.bound > best_.depth_mm + tolerance_)) return;
     part.through = no_index;
-    if (at.depth < -tolerance_ && part.bound > thin_share * best_.depth_mm) {
+    if (at.depth < -tolerance_) {
       part.through = way_in(part);
       if (part.through == no_index) return;
     }
@@ -356,20 +375,21 @@ class DepthSearch {
     return false;
   }
 
-  /// Cuts a piece where its bound comes from: the corner that is farthest from the triangle that is nearest to the middle.
+  /// Cuts off what is outside, where the piece may get in; else where its bound comes from: the corner that is farthest from the triangle that is
+  /// nearest to the middle.
   void cut(const SurfacePart& part) {
     const Vec3 middle = middle_of_corners(part.corners);
     const CornerPoints near = target_.corners(part.near);
     const Vec3 far = *std::max_element(
         part.corners.begin(), part.corners.end(),
         [&](const Vec3& a, const Vec3& b) { return distance_to(a, near) < distance_to(b, near); });
-    const Sounding at_far = sound(far, part.is_inside);
+    const Sounding at_far = sound(far, 0, part.is_inside, part.near);
     consider(far, part.triangle, at_far);
     if (part.cuts % cuts_per_halving != cuts_per_halving - 1) {
+      if (part.through != no_index && split(part, plane_of(target_.corners(part.through)))) return;
       if (const auto edge = edge_between(near, middle, far); edge && split(part, *edge)) return;
       const LinearFunction of_near = plane_of(near), of_other = plane_of(target_.corners(at_far.nearest));
       if (at_far.depth < 0 && split(part, of_other)) return;
-      if (part.through != no_index && split(part, plane_of(target_.corners(part.through)))) return;
       // Depths below two faces are equal on a plane.
       if (split(part, {of_other.n - of_near.n, of_other.d - of_near.d})) return;
     }
@@ -430,7 +450,8 @@ class DepthSearch {
   const mesh::TriangleTree &target_, &surface_;
   const Pose& X_TS_;
   mesh::DistancesToSurface distances_;
-  std::vector<Index> reaching_;  ///< places of triangles of S, ascending
+  std::vector<Index> reaching_;              ///< places of triangles of S, ascending
+  std::vector<std::size_t> meeting_before_;  ///< how many of those before each meet T, and of all
   std::size_t most_parts_, parts_ = 0;
   double tolerance_ = 0;
   Index nearest_ = no_index;
@@ -442,12 +463,13 @@ class DepthSearch {
 }  // namespace
 
 DepthSearched deepest_place(const mesh::TriangleTree& target, const mesh::TriangleTree& surface,
-                            const Pose& X_TS, std::optional<std::vector<Index>> reaching,
-                            double deeper_than_mm, std::size_t most_parts) {
+                            const Pose& X_TS, std::optional<Reaching> reaching, double deeper_than_mm,
+                            std::size_t most_parts) {
   if (target.empty() || surface.empty()) return {};
   if (!reaching) {
-    reaching.emplace(surface.triangles().size());
-    std::iota(reaching->begin(), reaching->end(), Index{0});
+    const std::size_t all = surface.triangles().size();
+    reaching = {std::vector<Index>(all), std::vector<char>(all, true)};
+    std::iota(reaching->places.begin(), reaching->places.end(), Index{0});
   }
   return DepthSearch(target, surface, X_TS, std::move(*reaching), deeper_than_mm, most_parts).run();
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "condyle/pose.hpp"
+#include "contact/reaching.hpp"
 #include "mesh/triangle_tree.hpp"
 
 /// How deep one surface reaches into a closed body, wherever its vertices are. docs/mathematics/03-both-directions.md.
@@ -36,10 +37,10 @@ struct DepthSearched {
 /// no bound exceeds the depth of a point by more than rounding (1e-13 of the coordinates), or `most_parts` were looked at: the bound says
 /// which. `target` must be of a closed mesh with its normals outwards. Only places deeper than `deeper_than_mm` are searched for.
 ///
-/// `reaching` are the places, in the surface's tree, of the triangles that have a point inside: BodyPair::reaching(). Without it all may, and those
+/// `reaching` are the triangles that have a point inside: BodyPair::reaching(). Without it all may, and those
 /// that lie outside as closely as they are large are looked at one by one.
 DepthSearched deepest_place(const mesh::TriangleTree& target, const mesh::TriangleTree& surface,
-                            const Pose& X_TS, std::optional<std::vector<Index>> reaching = {},
+                            const Pose& X_TS, std::optional<Reaching> reaching = {},
                             double deeper_than_mm = 0, std::size_t most_parts = 20'000);
 
 }  // namespace condyle::contact

@@ -47,8 +47,8 @@ bool is_farther(const Vec3& p, const TriangleCorners& t, double squared) noexcep
 }
 
 /// `squared_bound` of a node and of what is as near as the best so far: no triangle of the node is nearer to p. `nearest` is a triangle to begin
-/// with or no_index, and becomes one that is nearest: the distance is the same.
-double nearest_distance(const TriangleTree& surface, const Vec3& p, Index& nearest,
+/// with or no_index, and becomes one that is nearest: the distance is the same. Ends once one is as near as `enough`.
+double nearest_distance(const TriangleTree& surface, const Vec3& p, Index& nearest, double enough,
                         const auto& squared_bound) noexcept {
   struct Waiting {
     double squared;
@@ -61,7 +61,7 @@ double nearest_distance(const TriangleTree& surface, const Vec3& p, Index& neare
   if (nearest != no_index) best = std::min(best, distance_to_triangle(p, surface.corners(nearest)));
   std::size_t count = 0;
   waiting[count++] = {0, 0};
-  while (count > 0) {
+  while (count > 0 && best > enough) {
     const auto [squared, at] = waiting[--count];
     if (squared > best * best) continue;
     const TriangleTree::Node& node = surface.nodes()[at];
@@ -98,7 +98,7 @@ double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept {
 
 double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept {
   Index nearest = no_index;
-  return nearest_distance(surface, p, nearest, [&](Index node, double) {
+  return nearest_distance(surface, p, nearest, 0, [&](Index node, double) {
     return squared_distance_to_box(p, surface.nodes()[node]);
   });
 }
@@ -109,13 +109,13 @@ DistancesToSurface::DistancesToSurface(const TriangleTree& surface) : surface_(s
   if (surface.triangles().size() >= fine) discs_.emplace(surface);
 }
 
-double DistancesToSurface::operator()(const Vec3& p, Index& nearest) const noexcept {
+double DistancesToSurface::operator()(const Vec3& p, Index& nearest, double enough) const noexcept {
   const auto to_box = [&](Index node) { return squared_distance_to_box(p, surface_.nodes()[node]); };
   if (!discs_)
-    return nearest_distance(surface_, p, nearest, [&](Index node, double) { return to_box(node); });
-  return nearest_distance(surface_, p, nearest, [&](Index node, double enough) {
+    return nearest_distance(surface_, p, nearest, enough, [&](Index node, double) { return to_box(node); });
+  return nearest_distance(surface_, p, nearest, enough, [&](Index node, double as_near) {
     const double squared = to_box(node);
-    return squared > enough ? squared : std::max(squared, discs_->squared_distance(p, node));
+    return squared > as_near ? squared : std::max(squared, discs_->squared_distance(p, node));
   });
 }
 

@@ -26,8 +26,9 @@ class DistancesToSurface {
   explicit DistancesToSurface(const TriangleTree& surface);
 
   /// `nearest` is no_index, or the place of a triangle that is near p, as the one nearest to the point before: it makes this faster
-  /// and changes no distance. It becomes the place of a triangle that is nearest.
-  double operator()(const Vec3& p, Index& nearest) const noexcept;
+  /// and changes no distance. It becomes the place of a triangle that is nearest. Where a triangle is as near as `enough`, the distance to
+  /// that one may be the answer.
+  double operator()(const Vec3& p, Index& nearest, double enough = 0) const noexcept;
 
  private:
   const TriangleTree& surface_;

@@ -145,12 +145,12 @@ TEST(Touch, TrianglesThatReachInsideAreThoseOfBruteForce) {
         if (expected[t] || other.at(is_fixed ? p : posed(X_FM, p)).winding <= 0) continue;
         expected[t] = true, ++inside;
       }
-      const std::vector<Index> reaching = pair.reaching(role, X_FM, pairs);
+      const contact::Reaching reaching = pair.reaching(role, X_FM, pairs);
       const mesh::TriangleTree& tree = is_fixed ? pair.fixed_tree() : pair.mobile_tree();
       std::vector<Index> expected_places;
       for (Index t = 0; t < expected.size(); ++t)
         if (expected[tree.mesh_triangles()[t]]) expected_places.push_back(t);
-      EXPECT_EQ(reaching, expected_places) << k;
+      EXPECT_EQ(reaching.places, expected_places) << k;
 
       const auto& [target, surface, X_TS] =
           is_fixed ? std::tuple(&pair.mobile_tree(), &pair.fixed_tree(), inverted(X_FM))
