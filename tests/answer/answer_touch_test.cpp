@@ -120,6 +120,20 @@ TEST(Touch, DepthIsThatOfTheDeepestOfManyPoints) {
   EXPECT_GT(in_contact, 20);
 }
 
+/// The balls' poles are off the line between their centres: few triangles reach in, and only a little.
+TEST(Touch, DepthOfAThinOverlapTakesFewParts) {
+  const TriMesh ball = sphere({0, 0, 0}, 24, 4);
+  for (const double overlap_mm : {0.3, 0.03, 0.01}) {
+    const Pose X_FM = translated((48 - 0.05 - overlap_mm) * Vec3(47.7, 0.3, 0.7).normalized());
+    const contact::JointContact bodies(ball, ball);
+    const contact::BodyPair& pair = contact::body_pair_of(bodies);
+    const auto reaching = pair.reaching(BodyRole::mobile, X_FM, pair.pairs(X_FM));
+    const auto found = contact::deepest_place(pair.fixed_tree(), pair.mobile_tree(), X_FM, reaching, 0, 400);
+    ASSERT_TRUE(found.deepest) << overlap_mm;
+    EXPECT_LT(found.bound_mm - found.deepest->depth_mm, 1e-9) << overlap_mm;
+  }
+}
+
 /// A triangle that meets nothing is inside if a corner is.
 TEST(Touch, TrianglesThatReachInsideAreThoseOfBruteForce) {
   std::mt19937 random(64);
