@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench bench-summary verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits finite-elements
+  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits finite-elements growth
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -68,7 +68,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) static-test npm-test windows-test verify label-limits rotation-queries mujoco-limits finite-elements package clang sanitize sanitize-thread
+	@$(MAKE) static-test npm-test windows-test verify growth label-limits rotation-queries mujoco-limits finite-elements package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -132,6 +132,12 @@ rotation-queries: dependencies
 	@mkdir -p out/bench/rotations
 	@bench/rotations/run.py build/release/condyle-answer-rotations out/bench/rotations
 	@bench/update_page.py out/bench/rotations/run.json bench/tables/rotation-queries.md
+
+# How each command grows with meshes four times as large, of ten shapes; worse than a square fails.
+growth: dependencies
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_cli
+	@bench/growth_of_commands.py build/release/condyle --triangles 2500 --most 20
 
 # The fast paths against the plain ones: a hundred million vertices, on each instruction set in turn.
 verify: bench_dependencies
