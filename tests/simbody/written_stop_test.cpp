@@ -22,11 +22,11 @@ TEST(WrittenStop, OfSimbodyActsWhereTheRodMeetsThePlate) {
   const io::LoadedJoint joint =
       io::read_joint(io::read_model(folder / "model.osim"), {.joint = "hip_r", .joint_file = {}});
   const io::LimitFile file{folder / "limited.osim", io::StopForce::linear, folder / "model.osim"};
-  const auto coordinates = io::limit_coordinates(joint, file, nullptr);
+  const io::LimitCoordinates known_by = io::limit_coordinates(joint, file, nullptr, false);
   const RangeRequest request;
-  io::write_limits(
-      file, *limit_box_record(joint, answer_range(joint, request), request, coordinates, LimitSource::bony),
-      joint, nullptr);
+  const auto box =
+      io::limit_box(known_by, joint, answer_range(joint, request), request, LimitSource::bony, {});
+  io::write_limits(file, *box, joint, known_by, nullptr);
 
   const io::Model model = io::read_model(file.path);
   const auto& written = io::joint_named(model, "hip_r").coordinates;
