@@ -80,16 +80,25 @@ TEST_F(Motion, AnswersSayWhatTheTrianglesSizeLeavesOpen) {
 }
 
 TEST_F(Motion, ALoadHasTheArcsThatDepthHasAtItsPose) {
-  const Json load = answer("load cup.toml --force 0 -1500 0 --about '0 0 1 60 0 0'");
+  done("sample cartilages --scenario 5 --out layers");
+  write_edited("layers/cartilages.toml", "layers/cartilages.toml", "kind = \"ball\"",
+               "kind = \"free\"\njoint = \"hip\"");
+  const std::string about = " --about '0 0 1 60 0 0'";
+  const std::string asked =
+      "load layers/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 1500 -200" + about;
+  const Json load = answer(asked);
   std::string matrix;
   for (const Json& row : load["X_FM"])
     for (const double number : row) matrix += fmt::format("{} ", number);
   const Json depth =
-      answer("depth cup.toml --method tangential --about '0 0 1 60 0 0' --pose '" + matrix + "'");
+      answer("depth layers/cartilages.toml --method tangential" + about + " --pose '" + matrix + "'");
   ASSERT_GT(load["arcs"]["max_tangential_depth_mm"], 0);
   for (const auto& [key, value] : load["arcs"].items()) EXPECT_EQ(value, depth[key]) << key;
-  EXPECT_TRUE(says(run("load cup.toml --force 0 -1500 0 --about '0 0 1 60 0 0'").out,
-                   "mm along the arc of the axis"));
+  EXPECT_TRUE(says(run(asked).out, "mm along the arc of the axis"));
+
+  const std::string open = "load cup.toml --force 0 -1500 0" + about;
+  EXPECT_EQ(answer(open)["arcs"]["bodies"]["mobile"], nullptr);
+  EXPECT_TRUE(says(run(open).out, "open")) << run(open).out;
 }
 
 TEST_F(Motion, ARecordingThatEndsInContactSaysSo) {

@@ -135,10 +135,6 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
                   core::rounded(load.force_n, 2), load.force_n.norm(), core::rounded(load.moment_nmm, 2));
-  if (answer.arcs) {
-    const Joint surfaces = joint_of_surfaces(question.contact, joint);
-    text += deepest_arcs_text(depth_question(question, answer, surfaces), *answer.arcs);
-  }
   for (const LigamentAlong& ligament : answer.ligaments)
     if (const auto& at = ligament.frames.front(); at && at->tension_n > 0)
       text +=
@@ -147,6 +143,12 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   if (answer.cut_off_by_reach > 0)
     text += fmt::format("  the reach of {} mm cuts off {} rays that would be in contact\n",
                         question.contact.rays.reach_mm, answer.cut_off_by_reach);
+  if (answer.arcs) {
+    const Joint surfaces = joint_of_surfaces(question.contact, joint);
+    text += deepest_arcs_text(depth_question(question, answer, surfaces), *answer.arcs);
+    if (!answer.arcs->contact.mobile_in_fixed) text += open_line(surfaces.mobile);
+    if (!answer.arcs->contact.fixed_in_mobile) text += open_line(surfaces.fixed);
+  }
   return text;
 }
 
