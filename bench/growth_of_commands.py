@@ -17,8 +17,6 @@ from pathlib import Path
 import numpy as np
 
 LONGEST_S, WORTH_SAYING_S = 120, 0.25
-BALL = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-EIGHTS = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
 BOX = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 SIDES = np.array([(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)])
 
@@ -63,8 +61,9 @@ def cone(count):
 
 
 def coincident(count):
-    """The same box again and again."""
-    return merged([((BOX - 0.5) * 30, SIDES)] * (count // 12))
+    """Boxes in rows, eight in each place: pairs that coincide, which are counted, are as many times as many as triangles."""
+    vertices, triangles = pieces(count // 8)
+    return merged([(vertices, triangles)] * 8)
 
 
 def pieces(count):
@@ -131,7 +130,7 @@ COMMANDS = ["inspect shape.ply", "touch shape.ply ball.ply", "touch shape.ply ba
             "turn shape.ply ball.ply --axis 0 0 1 --centre 60 0 0", "slide shape.ply ball.ply --along 1 0 0",
             "depth joint.toml --pose x=8", "depth joint.toml --pose x=8 --method tangential --about '0 0 1 60 0 0'",
             "depth joint.toml --pose x=8 --method normal", "depth turned.toml --pose x=8", "load joint.toml --pose x=8 --e 12 --nu 0.4 --thickness 2",
-            "rom joint.toml --accept-reference-contact --motion flexion", "frame joint.toml", "motion joint.toml --motion moves.csv"]
+            "rom joint.toml --translation x=31 --motion flexion", "frame joint.toml", "motion joint.toml --motion moves.csv"]
 JOINT = """condyle = 1
 name = "grown"
 kind = "free"
