@@ -21,10 +21,10 @@ void check_arcs(const contact::ArcsAbout& about, const Pose& X_FM) {
   if (const auto* line = std::get_if<contact::AxisLine>(&about))
     static_cast<void>(AxisFrame(line->point, line->direction));
   else if (X_FM.translation() != Vec3::Zero())
-    throw UsageError(
-        core::formatted("method tangential: turns about the joint centre, and the pose is translated from it "
-                        "by %.3f mm; method radial answers there, or arcs about a line",
-                        X_FM.translation().norm()));
+    throw UsageError(core::formatted(
+        "arcs about an angle's axis turn about the joint centre, and the pose is translated from it "
+        "by %.3f mm; arcs about a line answer there, or depths along rays",
+        X_FM.translation().norm()));
 }
 
 /// As all depths along rays and arcs need them.

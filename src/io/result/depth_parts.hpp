@@ -128,10 +128,11 @@ std::string open_line(const Body& body);
 /// The angle about whose axis a depth of this kind goes; empty for those along a line.
 std::optional<JointAngle> angle_of(contact::DepthKind kind) noexcept;
 
-/// Of depths along arcs: the line of the axis, the contact's measures if there are any, the largest depths and the least gaps, under the keys
-/// of docs/depths.md; and the lines that say where the largest depths are.
+/// Adds the line of the axis, the contact's measures if there are any, the largest depths along arcs and the least gaps, under the keys
+/// of docs/depths.md.
 void add_arcs(Json& json, const DepthQuestion& question, const ArcDepths& depths,
               const contact::ContactMeasures* measures = nullptr);
+/// Lines that say where the largest depths along arcs are.
 std::string deepest_arcs_text(const DepthQuestion& question, const ArcDepths& depths);
 
 /// depth_result() of each method.

@@ -102,7 +102,7 @@ std::string surface_text(const ContactEntry& contact, const Body& body,
   return text + oblique;
 }
 
-/// Of the answered pose, for depths along arcs.
+/// The question that depths along arcs at the answered pose belong to.
 DepthQuestion depth_question(const LoadQuestion& question, const LoadAnswer& answer, const Joint& surfaces) {
   return {.joint = surfaces,
           .pose = question.pose,
