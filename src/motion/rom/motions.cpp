@@ -148,7 +148,7 @@ const Motion& motion_named(std::span<const Motion> motions, std::string_view nam
     names.push_back(motion.name);
     list += (list.empty() ? "" : ", ") + motion.name;
   }
-  throw UsageError("unknown motion \"" + core::one_line(name) + "\"" +
+  throw UsageError("unknown motion \"" + core::one_line(name, 40) + "\"" +
                    core::did_you_mean(in_small_letters(name), names) + "; there are " +
                    core::one_line(list, 2000));
 }
