@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <thread>
 
@@ -65,6 +66,7 @@ void look_beside_command() {
 std::string draw_figures(const std::vector<std::string>& words) {
   look_beside_command();
   setenv("PYTHONSAFEPATH", "1", 1);  // no modules of the working folder
+  setenv("CONDYLE_STARTED_BY", std::to_string(getpid()).c_str(), 1);
   for (const char* python : {"python3", "/usr/bin/python3"}) {
     if (run({python, "-c", "import condyle.plot"}, Errors::hidden) != 0) continue;
     std::vector<std::string> all{python, "-m", "condyle.plot"};

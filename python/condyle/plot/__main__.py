@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 from typing import Callable, Dict, List, Optional, Sequence, Tuple
@@ -145,6 +146,15 @@ def _sheet(given: argparse.Namespace) -> Rendered:
     return _pages(given.out, lambda: case_sheet.sheet(given.inputs, **_heading(given), picture=given.picture))
 
 
+def _starter_is_gone() -> bool:
+    """Whether the command that draws these figures was killed: its folder may be the next one's by now."""
+    try:
+        os.kill(int(os.environ.get("CONDYLE_STARTED_BY", os.getpid())), 0)
+    except ProcessLookupError:
+        return True
+    return False
+
+
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Draws all figures first and writes them then; returns the exit code of a success, and exits with the others'."""
     words = sys.argv[1:] if arguments is None else list(arguments)
@@ -158,6 +168,8 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     try:
         rendered = _sheet(given) if is_sheet else _figures(given)
         for path, content in rendered:
+            if _starter_is_gone():
+                _refuse("the command that asked for figures has ended", INTERRUPTED)
             path.parent.mkdir(parents=True, exist_ok=True)
             style.write_whole(path, content)
     except KeyboardInterrupt:
