@@ -133,7 +133,7 @@ rotation-queries: dependencies
 	@bench/rotations/run.py build/release/condyle-answer-rotations out/bench/rotations
 	@bench/update_page.py out/bench/rotations/run.json bench/tables/rotation-queries.md
 
-# How each command grows with meshes four times as large, of ten shapes; worse than a square fails.
+# How each command grows with meshes four times as large, of nine shapes; worse than a square fails.
 growth: dependencies
 	@$(configure_all)
 	@cmake --build --preset release --target condyle_cli

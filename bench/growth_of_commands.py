@@ -91,14 +91,6 @@ def nests(count):
     return merged([(v, t[:, ::-1] if k % 2 else t) for k, (v, t) in enumerate(reversed(nested))])
 
 
-def book(count):
-    """Leaves that share one edge."""
-    leaves = count // 12
-    turned = np.arange(leaves) * np.pi / leaves
-    return merged([((BOX - 0.5) * (30, 0.01, 30) @ np.array([(np.cos(a), np.sin(a), 0), (-np.sin(a), np.cos(a), 0), (0, 0, 1)]), SIDES)
-                   for a in turned])
-
-
 def comb(count):
     """Narrow boxes side by side, in contact along their faces."""
     teeth = count // 12
@@ -125,7 +117,7 @@ def rough(count):
     return vertices * (1 + 0.1 * np.random.default_rng(1).standard_normal((len(vertices), 1))), triangles
 
 
-SHAPES = {each.__name__: each for each in (ball, cone, coincident, pieces, slivers, nests, book, comb, plate, rough)}
+SHAPES = {each.__name__: each for each in (ball, cone, coincident, pieces, slivers, nests, comb, plate, rough)}
 COMMANDS = ["inspect shape.ply", "touch shape.ply ball.ply", "touch shape.ply ball.ply --measures", "touch ball.ply shape.ply --measures",
             "turn shape.ply ball.ply --axis 0 0 1 --centre 60 0 0", "slide shape.ply ball.ply --along 1 0 0",
             "depth joint.toml --pose x=8", "depth joint.toml --pose x=8 --method tangential --about '0 0 1 60 0 0'",
@@ -160,7 +152,8 @@ def write(path: Path, vertices, triangles):
 
 def scene(folder: Path, shape, count):
     folder.mkdir()
-    write(folder / "shape.ply", *SHAPES[shape](count))
+    vertices, triangles = SHAPES[shape](count)
+    write(folder / "shape.ply", vertices + (0.123, 0.234, 0.345), triangles)  # no joint centre lies on a surface
     vertices, triangles = ball(count)
     write(folder / "ball.ply", vertices + (20, 0.3, 0.7), triangles)
     (folder / "joint.toml").write_text(JOINT.format(fixed="shape", mobile="ball"))
@@ -199,7 +192,7 @@ def main():
                     continue
                 (first_s, code), (second_s, second_code) = (processor_s(f"{given.condyle.resolve()} {command}", at) for at in (small, large))
                 ratio = (second_s - start_s) / max(first_s - start_s, 1e-3)
-                is_worse = second_code is None or (ratio > given.most and second_s - start_s > WORTH_SAYING_S)
+                is_worse = second_code is None or (code == second_code and ratio > given.most and second_s - start_s > WORTH_SAYING_S)
                 worse += is_worse
                 codes = "" if code == second_code == 0 else f"  exit codes {code}, {second_code}"
                 print(f"{shape:10}  {command:72}  {first_s:7.3f} s  {second_s:7.3f} s  {ratio:5.1f}{' !' if is_worse else ''}{codes}", flush=True)
