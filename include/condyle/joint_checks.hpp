@@ -27,12 +27,19 @@ enum class JointNoteCode : std::uint8_t {
   gap_in_bone,          ///< Pieces that face each other across a gap are one bone; nothing fills the gap.
   interpolated_labels,  ///< Labels were interpolated and rounded: a bone lies in a shell of others.
   thick_slices,         ///< Voxels are too large to resolve the joint space.
+  two_affines,          ///< The image's file places its voxels in two ways.
+  two_voxel_sizes,      ///< ... and gives them two sizes.
+  unknown_units,        ///< ... or no unit of length; mm was assumed.
+  more_bytes,           ///< ... or holds more than its header promises.
+  simplified_away,      ///< The surface moved by more than a voxel when it was simplified.
+  touching,             ///< The voxels of both bones touch or overlap.
   cut_by_view,          ///< It ends where its image ends: what is missing may end a motion earlier.
   flat_end,             ///< It ends in a plane near the joint, as a bone that was cut for export: likewise.
   same_mesh,            ///< Both bodies are one mesh.
   swapped_bodies,       ///< The head is on the fixed body.
   unlikely_joint,       ///< A head in a socket, and another joint or a hinge stated.
   no_head,              ///< A hip without one: every contact ends a motion.
+  head_not_round,       ///< A head that is longer one way: spacing lost, a gantry's tilt, or its shape.
   low_coverage,         ///< Little of a sphere or of a turn was there to fit.
   uncertain_fit,        ///< Parts of the surface give different centres or axes.
   far_centre,           ///< The bones of a knee, ankle or elbow are nearest each other far from it.
@@ -56,6 +63,15 @@ enum class JointNoteCode : std::uint8_t {
 
 /// As in files: "wrong_side".
 [[nodiscard]] std::string_view name_of(JointNoteCode code) noexcept;
+
+/// Those that are of the image of a body, which its joint file keeps: `[[mobile.image.note]]`.
+inline constexpr JointNoteCode image_note_codes[] = {
+    JointNoteCode::pieces_left_out, JointNoteCode::gap_in_bone,     JointNoteCode::interpolated_labels,
+    JointNoteCode::two_affines,     JointNoteCode::two_voxel_sizes, JointNoteCode::unknown_units,
+    JointNoteCode::more_bytes,      JointNoteCode::simplified_away, JointNoteCode::touching};
+
+/// The code of an image's note that a file calls so.
+[[nodiscard]] std::optional<JointNoteCode> image_note_code(std::string_view name) noexcept;
 
 /// A joint centre farther than this from that of the head, mm: limits change by 2 to 6 degrees with each millimetre.
 inline constexpr double farthest_from_head_mm = 1;

@@ -43,20 +43,6 @@ Sphere ball_around(const TriMesh& mesh) {
   return {(low + high) / 2, (high - low).norm() / 2};
 }
 
-/// The mean direction from the head's centre, by area, of the surface at the neck's distance.
-std::optional<Vec3> towards_neck(const TriMesh& femur, const Sphere& head) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t t = 0; t < femur.triangles.size(); ++t) {
-    const Vec3 a = femur.corner(t, 0), b = femur.corner(t, 1), c = femur.corner(t, 2);
-    const Vec3 ray = (a + b + c) / 3 - head.centre;
-    const double distance = ray.norm() / head.radius;
-    if (distance >= neck_begins && distance <= neck_ends)
-      sum += (b - a).cross(c - a).norm() * ray.normalized();
-  }
-  if (!(sum.norm() > 0)) return std::nullopt;
-  return sum.normalized();
-}
-
 Vec3 farthest(const TriMesh& mesh, const Vec3& from) {
   Vec3 ray = Vec3::Zero();
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -76,6 +62,19 @@ Vec3 area_centroid(const TriMesh& mesh) {
     moment += size * ((a + b + c) / 3);
   }
   return area > 0 ? Vec3(moment / area) : moment;
+}
+
+std::optional<Vec3> towards_neck(const TriMesh& femur, const Sphere& head) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t t = 0; t < femur.triangles.size(); ++t) {
+    const Vec3 a = femur.corner(t, 0), b = femur.corner(t, 1), c = femur.corner(t, 2);
+    const Vec3 ray = (a + b + c) / 3 - head.centre;
+    const double distance = ray.norm() / head.radius;
+    if (distance >= neck_begins && distance <= neck_ends)
+      sum += (b - a).cross(c - a).norm() * ray.normalized();
+  }
+  if (!(sum.norm() > 0)) return std::nullopt;
+  return sum.normalized();
 }
 
 bool fits_into(const Sphere& head, const SphericalPatch& socket) {

@@ -28,6 +28,9 @@ inline constexpr double largest_socket_in_heads = 1.4;
 std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head,
                                             std::size_t resamples = 0);
 
+/// The mean direction from the head's centre, by area, of the surface at the neck's distance; empty if there is none.
+std::optional<Vec3> towards_neck(const TriMesh& femur, const Sphere& head);
+
 /// Whether a head has room in a socket, but for the roughness of its surface and half a millimetre that cartilages give way.
 bool fits_into(const Sphere& head, const SphericalPatch& socket);
 

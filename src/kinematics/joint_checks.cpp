@@ -17,6 +17,7 @@
 #include "kinematics/cut_parts.hpp"
 #include "kinematics/flat_end_notes.hpp"
 #include "kinematics/flat_ends.hpp"
+#include "kinematics/head_shape.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "kinematics/hip_parts.hpp"
@@ -376,6 +377,7 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
   }
   const auto socket = kinematics::socket_of(joint.fixed, head->fit.sphere);
   check_centres(joint, head->fit.sphere, *socket, notes);
+  if (auto note = kinematics::head_shape_note(joint, head->fit.sphere)) notes.add({std::move(*note)});
   if (*socket) {
     check_hip(joint, *head, **socket, notes);
   } else {
@@ -452,6 +454,18 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "interpolated_labels";
     case JointNoteCode::thick_slices:
       return "thick_slices";
+    case JointNoteCode::two_affines:
+      return "two_affines";
+    case JointNoteCode::two_voxel_sizes:
+      return "two_voxel_sizes";
+    case JointNoteCode::unknown_units:
+      return "unknown_units";
+    case JointNoteCode::more_bytes:
+      return "more_bytes";
+    case JointNoteCode::simplified_away:
+      return "simplified_away";
+    case JointNoteCode::touching:
+      return "touching";
     case JointNoteCode::cut_by_view:
       return "cut_by_view";
     case JointNoteCode::flat_end:
@@ -464,6 +478,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "swapped_bodies";
     case JointNoteCode::no_head:
       return "no_head";
+    case JointNoteCode::head_not_round:
+      return "head_not_round";
     case JointNoteCode::low_coverage:
       return "low_coverage";
     case JointNoteCode::uncertain_fit:
@@ -500,6 +516,12 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "unlikely_strain";
   }
   return "";
+}
+
+std::optional<JointNoteCode> image_note_code(std::string_view name) noexcept {
+  const auto code = std::find_if(std::begin(image_note_codes), std::end(image_note_codes),
+                                 [&](JointNoteCode each) { return name_of(each) == name; });
+  return code == std::end(image_note_codes) ? std::nullopt : std::optional(*code);
 }
 
 std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement) {

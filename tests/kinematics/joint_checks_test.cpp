@@ -83,6 +83,14 @@ void change_both(HipSetUp& s, const Change& change, const Arguments&... argument
   s.fixed = change(s.fixed, arguments...), s.mobile = change(s.mobile, arguments...);
 }
 
+/// Each slice shifted forwards by so much of its height.
+void tilt_gantry(HipSetUp& s) {
+  Eigen::Matrix3d sheared = Eigen::Matrix3d::Identity();
+  sheared(0, 1) = std::tan(10 * std::numbers::pi / 180);
+  change_both(s, turned, sheared);
+  s.joint.frame.centre = CentreFit{};
+}
+
 struct Case {
   const char* name;
   const Hip& (*hip)();
@@ -181,6 +189,12 @@ const std::vector<Case> wrong_set_ups{
      vhf,
      [](HipSetUp& s) { s.mobile = scaled_by(s.mobile, 1.1); },
      {Code::socket_smaller_than_head}},
+    {"SpacingOfSlicesLost",
+     vhf,
+     [](HipSetUp& s) { change_both(s, turned, Vec3(1, 1, 1.1).asDiagonal().toDenseMatrix()); },
+     {Code::head_not_round}},
+    {"GantryTilted", vhf, tilt_gantry, {Code::head_not_round, Code::turned_leg}},
+    {"GantryTiltedOfTheOtherHip", coarse_libhip, tilt_gantry, {Code::head_not_round}},
     {"CentreFittedToACondyle",
      vhf,
      [](HipSetUp& s) {
@@ -380,7 +394,7 @@ TEST(JointChecks, MeshesOfOneBodyMayLieInEachOther) {
 
 TEST(JointChecks, AllCodesHaveNamesOfTheirOwn) {
   std::vector<std::string_view> names;
-  for (int code = 0; code <= static_cast<int>(Code::bodies_disagree); ++code)
+  for (int code = 0; code <= static_cast<int>(Code::two_sided); ++code)
     names.push_back(name_of(static_cast<Code>(code)));
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());

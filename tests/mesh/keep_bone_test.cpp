@@ -1,8 +1,9 @@
+#include "mesh/label_surface/repeated_slices.hpp"
 #include "mesh/label_surface/voxel_pieces.hpp"
 #include "support/test.hpp"
 #include "support/voxel_masks.hpp"
 
-/// Which pieces of a label are one bone.
+/// Which pieces of a label are one bone, and how thick the slices were in which it was drawn.
 
 namespace condyle {
 namespace {
@@ -49,6 +50,31 @@ TEST(KeepBone, TakesHalvesBesideEachOtherForTwo) {
 
 TEST(KeepBone, LeavesSpecksToTheSurface) {
   EXPECT_EQ(kept({{{0, 0, 0}, {20, 20, 60}}, {{0, 0, 70}, {4, 4, 74}}}, 1), "24064");
+}
+
+/// A ball at the end of a straight shaft along the axis, drawn in slices of so many voxels.
+VoxelMask drawn_in_slices(std::size_t axis, double slice) {
+  return test::mask_where({70, 70, 70}, [&](const Vec3& v) {
+    Vec3 p = v - Vec3::Constant(35);
+    const auto a = static_cast<Eigen::Index>(axis);
+    p[a] = slice * (std::floor(v[a] / slice) + 0.5) - 35;
+    const double along = p[a];
+    p[a] = 0;
+    return along < 0 ? p.norm() < 8.2 : std::hypot(p.norm(), along) < 20.3;
+  });
+}
+
+TEST(RepeatedSlices, CountAsOne) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double slice : {2.0, 2.5, 5.0}) {
+      const VoxelMask mask = drawn_in_slices(axis, slice);
+      EXPECT_NEAR(mesh::slices_in_one(mask, axis), slice, 0.35);
+      EXPECT_NEAR(mesh::slices_in_one(test::cropped(mask), axis), slice, 0.35);
+      EXPECT_EQ(mesh::slices_in_one(mask, (axis + 1) % 3), 1);
+    }
+    EXPECT_EQ(mesh::slices_in_one(drawn_in_slices(axis, 1), axis), 1) << "a straight shaft";
+  }
+  EXPECT_EQ(mesh::slices_in_one(test::mask_where({8, 8, 8}, [](const Vec3&) { return false; }), 0), 1);
 }
 
 }  // namespace

@@ -111,8 +111,10 @@ def test_a_study_warns_of_its_joints(hip_file, tmp_path):
 
 
 LEFT_OUT = {"pieces_left_out": "hip bone is in 2 pieces: 900 mm3 are left out", "gap_in_bone": "2 pieces of hip bone are one bone",
-            "interpolated_labels": "31 % of the border of hip bone is one voxel thick"}
-"""What a label map can leave out of a bone; thick_slices follows from its voxels."""
+            "interpolated_labels": "31 % of the border of hip bone is one voxel thick", "two_affines": "voxels are placed in two ways",
+            "two_voxel_sizes": "voxels have two sizes", "unknown_units": "no unit of length", "more_bytes": "the file holds 2 bytes more",
+            "simplified_away": "hip bone was simplified", "touching": "hip bone and femur touch at 3 faces of voxels"}
+"""What a label map can leave out of a bone or in doubt; thick_slices follows from its voxels."""
 
 
 def test_what_a_map_leaves_out_stands_in_every_document(sampled, tmp_path):

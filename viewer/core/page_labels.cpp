@@ -121,6 +121,7 @@ void add_origin(const io::ImagedBone& imaged, std::vector<std::string>& lines) {
 CondyleJoint* joined(const CondyleBone& fixed, const CondyleBone& mobile, const std::optional<Side>& given) {
   io::RequestedBone of_fixed = fixed.requested(), of_mobile = mobile.requested();
   io::take_pieces_of_joint(of_fixed, of_mobile, given, {});
+  std::vector<io::LabelNote> notes = io::record_notes(of_fixed, of_mobile);
   const io::LabelBone &hip_bone = of_fixed.bone, &femur = of_mobile.bone;
   const io::ImagedBone imaged_fixed{of_fixed.map, of_fixed.file, hip_bone},
       imaged_mobile{of_mobile.map, of_mobile.file, femur};
@@ -139,7 +140,7 @@ CondyleJoint* joined(const CondyleBone& fixed, const CondyleBone& mobile, const 
   add_origin(imaged_fixed, proposal.inferred);
   add_origin(imaged_mobile, proposal.inferred);
   proposal.inferred.insert(proposal.inferred.end(), of_bones.evidence.begin(), of_bones.evidence.end());
-  proposal.of_images = io::notes_of(imaged_fixed, imaged_mobile);
+  proposal.of_images = std::move(notes);
   proposal.fixed = fixed.of.file, proposal.mobile = mobile.of.file;
   proposal.fixed_name = hip_bone.name, proposal.mobile_name = femur.name;
   return joint_of(std::move(description), body_of(hip_bone), body_of(femur), std::move(proposal));

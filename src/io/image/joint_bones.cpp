@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "condyle/error.hpp"
+#include "condyle/joint_checks.hpp"
 #include "core/one_line.hpp"
 #include "core/rounded.hpp"
 
 namespace condyle::io {
 namespace {
-
-void add_notes(std::vector<LabelNote>& to, const std::vector<LabelNote>& notes) {
-  to.insert(to.end(), notes.begin(), notes.end());
-}
 
 std::string spacing_text(const LabelSurface& surface) {
   const Vec3& h = surface.spacing;
@@ -22,8 +21,38 @@ bool same_grid(const VoxelGrid& a, const VoxelGrid& b) {
   return a.size == b.size && a.X_WI.matrix() == b.X_WI.matrix();
 }
 
-VoxelMask voxels_of(const ImagedBone& imaged) {
-  return mask_of(imaged.map, imaged.bone.label);
+/// Bones touch at so much of their voxels' faces, mm2, where the joint space is lost. Maps of a real hip in voxels of 1 to 2 mm have 10 to 170,
+/// and limits as its meshes have.
+constexpr double least_touching_mm2 = 400;
+
+struct TouchingNotes {
+  std::vector<LabelNote> notes = {};
+  bool is_recorded = false;
+};
+
+/// Where bones of one grid are neighbours, voxel to voxel, or overlap: labels of one image, or two masks that were cut out of it.
+TouchingNotes notes_on_touching(const RequestedBone& fixed, const RequestedBone& mobile) {
+  if (!same_grid(fixed.map.grid, mobile.map.grid)) return {};
+  const TouchingVoxels touching =
+      touching_voxels(mask_of(fixed.map, fixed.bone.label), mask_of(mobile.map, mobile.bone.label));
+  const std::string &of_fixed = fixed.bone.name, &of_mobile = mobile.bone.name;
+  TouchingNotes found{.is_recorded = touching.shared > 0};
+  if (touching.shared > 0)
+    found.notes.push_back(
+        {LabelNoteCode::touching, fmt::format("{} voxels are both {} and {}: the bones overlap",
+                                              touching.shared, of_fixed, of_mobile)});
+  if (touching.faces > 0) {
+    const Vec3& spacing = fixed.bone.surface.spacing;
+    const double area = static_cast<double>(touching.faces) * std::pow(spacing.prod(), 2.0 / 3);
+    found.is_recorded |= area >= least_touching_mm2;
+    found.notes.push_back(
+        {LabelNoteCode::touching,
+         fmt::format("{} and {} touch at {} faces of voxels, about {} mm: there the joint space is below "
+                     "what voxels of {:.2g} mm resolve, and its width is the smoothing's",
+                     of_fixed, of_mobile, touching.faces, core::rounded(*touching.centre, 1),
+                     spacing.maxCoeff())});
+  }
+  return found;
 }
 
 /// Each label of a bone.
@@ -44,8 +73,14 @@ std::string label_numbers(const ChosenLabel& bone, std::string_view between) {
 
 std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image_name) {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("label {} of {}, {} voxels of {} mm", label_numbers(bone.label, ", "),
-                              core::one_line(image_name, 200), bone.voxels, spacing_text(bone.surface)));
+  std::string alike;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    if (const double slices = bone.image.voxel.col(axis).norm() / bone.surface.spacing[axis]; slices > 1.01)
+      alike +=
+          fmt::format(", of which {:.2g} in a row along {} are alike, and count as one", slices, "ijk"[axis]);
+  lines.push_back(fmt::format("label {} of {}, {} voxels of {} mm{}", label_numbers(bone.label, ", "),
+                              core::one_line(image_name, 200), bone.voxels, spacing_text(bone.surface),
+                              alike));
   lines.push_back(
       fmt::format("surface off by about {:.2g} mm at most by the grid; by the segmentation, unknown",
                   bone.surface.digitisation));
@@ -77,30 +112,20 @@ std::optional<Stated<Side>> stated_side(const std::optional<Side>& given, const 
   return std::nullopt;
 }
 
-std::vector<LabelNote> notes_on_touching(const ImagedBone& fixed, const ImagedBone& mobile) {
-  if (!same_grid(fixed.map.grid, mobile.map.grid)) return {};
-  const TouchingVoxels touching = touching_voxels(voxels_of(fixed), voxels_of(mobile));
-  const std::string &of_fixed = fixed.bone.name, &of_mobile = mobile.bone.name;
+std::vector<LabelNote> record_notes(RequestedBone& fixed, RequestedBone& mobile) {
   std::vector<LabelNote> notes;
-  if (touching.shared > 0)
-    notes.push_back({LabelNoteCode::touching, fmt::format("{} voxels are both {} and {}: the bones overlap",
-                                                          touching.shared, of_fixed, of_mobile)});
-  if (touching.faces > 0)
-    notes.push_back(
-        {LabelNoteCode::touching,
-         fmt::format("{} and {} touch at {} faces of voxels, about {} mm: there the joint space is below "
-                     "what voxels of {:.2g} mm resolve, and its width is the smoothing's",
-                     of_fixed, of_mobile, touching.faces, core::rounded(*touching.centre, 1),
-                     fixed.bone.surface.spacing.maxCoeff())});
-  return notes;
-}
-
-std::vector<LabelNote> notes_of(const ImagedBone& fixed, const ImagedBone& mobile) {
-  std::vector<LabelNote> notes = fixed.map.notes;
-  if (&fixed.map != &mobile.map) add_notes(notes, mobile.map.notes);
-  add_notes(notes, fixed.bone.notes);
-  add_notes(notes, mobile.bone.notes);
-  add_notes(notes, notes_on_touching(fixed, mobile));
+  const auto add = [&](const std::vector<LabelNote>& some, LabelBone& of, bool is_recorded = true) {
+    notes.insert(notes.end(), some.begin(), some.end());
+    for (const LabelNote& note : some)
+      if (const auto code = is_recorded ? image_note_code(name_of(note.code)) : std::nullopt)
+        of.image.notes.push_back({*code, note.text});
+  };
+  add(fixed.map.notes, fixed.bone);
+  if (&fixed.map != &mobile.map) add(mobile.map.notes, mobile.bone);
+  add(fixed.bone.notes, fixed.bone);
+  add(mobile.bone.notes, mobile.bone);
+  const TouchingNotes touching = notes_on_touching(fixed, mobile);
+  add(touching.notes, fixed.bone, touching.is_recorded);
   return notes;
 }
 

@@ -47,11 +47,8 @@ void check_are_two(const ImagedBone& fixed, const ImagedBone& mobile);
 std::optional<Stated<Side>> stated_side(const std::optional<Side>& given, const LabelBone& fixed,
                                         const LabelBone& mobile, const std::string& given_by = "given");
 
-/// Notes where bones of one grid are neighbours, voxel to voxel, or overlap: labels of one image, or two masks that were cut out
-/// of it.
-std::vector<LabelNote> notes_on_touching(const ImagedBone& fixed, const ImagedBone& mobile);
-
-/// Notes of the images, of both bones and of where they touch.
-std::vector<LabelNote> notes_of(const ImagedBone& fixed, const ImagedBone& mobile);
+/// Notes of the images, of both bones and of where they touch. Those by which a joint is to be judged are put into the images of the bones,
+/// for every answer to repeat.
+std::vector<LabelNote> record_notes(RequestedBone& fixed, RequestedBone& mobile);
 
 }  // namespace condyle::io

@@ -41,6 +41,7 @@ std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* oth
   io::RequestedBone wanted_fixed{map, fixed_name, request.fixed, *std::move(fixed)},
       wanted_mobile{mobile_map, mobile_name, request.mobile, *std::move(mobile)};
   if (!io::take_pieces_of_joint(wanted_fixed, wanted_mobile, request.side, control)) return std::nullopt;
+  std::vector<LabelNote> notes = io::record_notes(wanted_fixed, wanted_mobile);
   const ImagedBone of_fixed{map, fixed_name, wanted_fixed.bone},
       of_mobile{mobile_map, mobile_name, wanted_mobile.bone};
   io::check_are_two(of_fixed, of_mobile);
@@ -51,7 +52,6 @@ std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* oth
       .side = io::stated_side(request.side, of_fixed.bone, of_mobile.bone, request.side_by),
       .units = Stated<LengthUnit>{LengthUnit::millimetres, "of surfaces from label maps"},
       .axes_by = "surfaces from label maps are in LPS, by the image's header"};
-  std::vector<LabelNote> notes = io::notes_of(of_fixed, of_mobile);
   const std::filesystem::path folder = request.joint_file.parent_path();
   LabelJoint joint{std::move(wanted_fixed.bone), std::move(wanted_mobile.bone), {}, {}, {}, std::move(notes)};
   joint.fixed_mesh = folder / file_name_of(joint.fixed.name);

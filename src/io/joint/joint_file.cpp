@@ -201,11 +201,10 @@ std::optional<BodyImage> body_image(TomlTable& body, const Lengths& lengths) {
     cut.finish();
   }
   for (TomlTable& note : table->tables("note")) {
-    constexpr JointNoteCode codes[] = {JointNoteCode::pieces_left_out, JointNoteCode::gap_in_bone,
-                                       JointNoteCode::interpolated_labels};
-    const JointNoteCode code =
-        codes[note.required_word("code", {name_of(codes[0]), name_of(codes[1]), name_of(codes[2])})];
-    image.notes.push_back({code, core::one_line(note.required("text", note.text("text")), 1000)});
+    const std::string word = note.required("code", note.text("code"));
+    const auto code = image_note_code(word);
+    if (!code) note.fail("code", "is none of an image's notes: " + in_quotes(word));
+    image.notes.push_back({*code, core::one_line(note.required("text", note.text("text")), 1000)});
     note.finish();
   }
   table->finish();

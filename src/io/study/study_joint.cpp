@@ -6,6 +6,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
+#include "condyle/joint_checks.hpp"
 #include "condyle/sample/hip.hpp"
 #include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
@@ -176,7 +177,8 @@ StudyJoint segmented(const StudyTable& table, const StudyRow& row) {
     joint_report.placement = std::move(placed.placement);
     std::vector<std::string> codes;
     for (const LabelNote& note : found.notes)
-      if (note.code != LabelNoteCode::cut_by_view) codes.emplace_back(name_of(note.code));
+      if (note.code != LabelNoteCode::cut_by_view && !image_note_code(name_of(note.code)))
+        codes.emplace_back(name_of(note.code));
     return {{std::move(placed.joint), std::move(joint_report)}, std::move(codes)};
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: {}", where, error.what()));

@@ -104,10 +104,21 @@ void interpolate(io::LabelMap& map) {
   }
 }
 
-enum class Kind { good, plate, triradiate, no_head, interpolated, slices };
+/// As where slices are resampled to so many of the same: voxels are as thin as others are.
+void repeat_slices(io::LabelMap& map, std::int64_t times) {
+  std::vector<std::uint16_t> all;
+  const std::int64_t slice = map.grid.size[0] * map.grid.size[1];
+  for (auto at = map.layers[0].begin(); at != map.layers[0].end(); at += slice)
+    for (std::int64_t n = 0; n < times; ++n) all.insert(all.end(), at, at + slice);
+  map.layers[0] = std::move(all);
+  map.grid.size[2] *= times;
+  map.grid.X_WI.linear().col(2) /= static_cast<double>(times);
+}
+
+enum class Kind { good, plate, triradiate, no_head, interpolated, slices, repeated, stretched, tilted };
 
 io::LabelMap drawn(Kind kind, const Hip& hip, Draw draw) {
-  const bool is_thick = kind == Kind::slices;
+  const bool is_thick = kind == Kind::slices || kind == Kind::repeated;
   const double edge = is_thick ? 0.8 : draw.between(1, 1.6);
   const Vec3 edges(edge, edge, is_thick ? draw.between(3, 5) : std::min(2.0, edge * draw.between(1, 1.6)));
   const Vec3 axis(draw.between(-1, 1), draw.between(-1, 1), draw.between(0.1, 1));
@@ -134,6 +145,14 @@ io::LabelMap drawn(Kind kind, const Hip& hip, Draw draw) {
     return label;
   });
   if (kind == Kind::interpolated) interpolate(map);
+  if (kind == Kind::repeated) repeat_slices(map, 4);
+  // What the header says of the slices is wrong: their distance, or where each of them begins.
+  const double by = draw.between(0.1, 0.3), axis_of_tilt = draw.between(0, 1);
+  if (kind == Kind::stretched) map.grid.X_WI.linear().col(2) *= axis_of_tilt < 0.5 ? 1 + by : 1 / (1 + by);
+  if (kind == Kind::tilted) {
+    const Vec3 along = map.grid.X_WI.linear().col(axis_of_tilt < 0.5 ? 0 : 1).normalized();
+    map.grid.X_WI.linear().col(2) += (by + 0.08) * map.grid.X_WI.linear().col(2).norm() * along;
+  }
   return map;
 }
 
@@ -175,8 +194,8 @@ std::string fault_of(Kind kind, const Hip& hip, const io::LabelMap& map) {
 
 TEST(DegradedHips, AreRightRefusedOrNoted) {
   const int draws = std::getenv("CONDYLE_LONG_TESTS") ? 60 : 2;
-  for (const Kind kind :
-       {Kind::good, Kind::plate, Kind::triradiate, Kind::no_head, Kind::interpolated, Kind::slices})
+  for (const Kind kind : {Kind::good, Kind::plate, Kind::triradiate, Kind::no_head, Kind::interpolated,
+                          Kind::slices, Kind::repeated, Kind::stretched, Kind::tilted})
     for (int n = 0; n < draws; ++n) {
       const Hip& hip = hips()[static_cast<std::size_t>(n) % hips().size()];
       EXPECT_EQ(fault_of(kind, hip, drawn(kind, hip, Draw(n))), "")
