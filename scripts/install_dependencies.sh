@@ -71,6 +71,11 @@ for group in "$@"; do
   esac
 done
 
+if ! command -v dpkg-query >/dev/null; then
+  echo "condyle: no dpkg here, so nothing is installed: which packages are missing, CMake says" >&2
+  exit 0
+fi
+
 missing=()
 for package in "${packages[@]}"; do
   if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed'; then
