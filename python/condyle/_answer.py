@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 from decimal import ROUND_CEILING, Context
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, Optional, TypeVar
+from typing import TYPE_CHECKING, Any, Optional, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +58,7 @@ class Columns:
     """A frozen dataclass whose arrays of one length are the columns of a table."""
 
     def _columns(self) -> dict[str, NDArray[Any]]:
-        named = {field.name: getattr(self, field.name) for field in fields(self)}
+        named = {field.name: getattr(self, field.name) for field in fields(cast(Any, self))}
         return {name: value for name, value in named.items()
                 if isinstance(value, np.ndarray) and value.ndim == 1 and name != "offset"}
 

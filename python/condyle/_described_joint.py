@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from dataclasses import dataclass
-from typing import Any, ContextManager, Mapping, Optional, Union, overload
+from typing import Any, ContextManager, Mapping, Optional, Union, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -246,7 +246,7 @@ class DescribedJoint(Unchanging):
     # Its place.
 
     @overload
-    def pose(self, **coordinates: float) -> Pose: ...  # type: ignore[misc]
+    def pose(self, **coordinates: float) -> Pose: ...  # type: ignore
 
     @overload
     def pose(self, **coordinates: Union[float, ManyNumbers]) -> Poses: ...
@@ -274,7 +274,7 @@ class DescribedJoint(Unchanging):
             raise UsageError(f"pose: a hinge rotates in {self.angle_names[0][0]} only")
         poses = self._native.poses_at(angles, translations)
         if any(np.ndim(value) for value in coordinates.values()):
-            return poses
+            return cast(Poses, poses)
         one: Pose = poses[0]
         return one
 

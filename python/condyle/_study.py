@@ -106,12 +106,12 @@ class StudyLoad:
     def _checked(self) -> dict[str, Any]:
         if self.layer is not None and not isinstance(self.layer, ElasticLayer):
             raise UsageError(f"layer: an ElasticLayer is needed, not {type(self.layer).__name__}")
-        force = np.empty(0)
+        force: NDArray[np.float64] = np.empty(0)
         if self.force_n is not None:
             force = number_array(self.force_n, "force_n", "three numbers")
             if force.shape != (3,):
                 raise UsageError("force_n: three numbers are needed")
-        free = np.empty((0, 3))
+        free: NDArray[np.float64] = np.empty((0, 3))
         if self.free_directions is not None:
             if self.force_n is None:
                 raise UsageError("free_directions: needs force_n")
@@ -178,12 +178,12 @@ class Study:
     options: Mapping[str, object]
 
     def __repr__(self) -> str:
-        motions = len(set(self.limits["motion"].tolist()))
+        motions = len(set(self.limits["motion"]))
         return f"Study({self.hips.rows} joints, {self.failures.rows} failures, {motions} motions)"
 
     def _repr_html_(self) -> str:
         return html_of("study", [("joints", str(self.hips.rows)), ("failures", str(self.failures.rows)),
-                                 ("motions", ", ".join(dict.fromkeys(self.limits["motion"].tolist())))])
+                                 ("motions", ", ".join(dict.fromkeys(self.limits["motion"])))])
 
     def to_dataframe(self) -> pandas.DataFrame:
         """`limits` with the columns of `hips` beside, a row per joint and motion. Needs pandas."""

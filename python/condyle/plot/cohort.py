@@ -56,15 +56,15 @@ def _limits_of(study: StudyLike) -> Mapping[str, ArrayLike]:
     """`limits` of a `condyle.Study` with the columns of `hips` beside, as `Study.to_dataframe` has them; else the table."""
     if not isinstance(study, Study):
         return study
-    row = {name: i for i, name in enumerate(study.hips["id"].tolist())}
-    of_hip = np.array([row[name] for name in study.limits["id"].tolist()], dtype=int)
+    row = {name: i for i, name in enumerate(study.hips["id"])}
+    of_hip = np.array([row[name] for name in study.limits["id"]], dtype=int)
     beside = {name: values[of_hip] for name, values in study.hips.items() if name not in study.limits}
     return {**study.limits, **beside}
 
 
 def spread_of(limits_deg: NDArray[np.float64], reasons: NDArray[Any]) -> Spread:
     """Percentiles 5, 25, 50, 75 and 95, and the share that ended without contact."""
-    p5, quartile, median, third_quartile, p95 = np.percentile(limits_deg, [5, 25, 50, 75, 95]).tolist()
+    p5, quartile, median, third_quartile, p95 = map(float, np.percentile(limits_deg, [5, 25, 50, 75, 95]))
     return Spread(p5, quartile, median, third_quartile, p95, float(np.mean(reasons == "end_of_range")))
 
 
@@ -91,7 +91,7 @@ def limit_distributions(study: StudyLike, *, by: Optional[str] = None, motions: 
     """
     table = _limits_of(study)
     names, limits, reasons = (_column(table, name) for name in ("motion", "limit_deg", "reason"))
-    shown = list(dict.fromkeys(names.tolist())) if motions is None else list(motions)
+    shown = list(dict.fromkeys(names)) if motions is None else list(motions)
     for name in shown:
         if not (names == name).any():
             raise UsageError(f"the table has no motion '{name}'")

@@ -41,11 +41,11 @@ def contact_sheet(study: Study, *, name: str = "") -> List[Figure]:
     median of all joints (gid `median`). The name of a joint with `outliers` has an asterisk. Outliers among limits have another one at the right
     of their bar (gid `outlier`) with their robust standard deviations; the others stand below the name.
     """
-    joints = study.hips["id"].tolist()
+    joints = list(study.hips["id"])
     if len(joints) > MOST_JOINTS:
         raise UsageError(f"{len(joints)} joints: at most {MOST_JOINTS} stand on contact sheets")
     ends: Dict[str, Dict[str, MotionEnd]] = {joint: {} for joint in joints}
-    for i, (joint, motion) in enumerate(zip(study.limits["id"].tolist(), study.limits["motion"].tolist())):
+    for i, (joint, motion) in enumerate(zip(study.limits["id"], study.limits["motion"])):
         ends[joint][motion] = _end_of(study.limits, i)
     every = [end for of in ends.values() for end in of.values()]
     names: Dict[str, str] = {}

@@ -26,14 +26,14 @@ class Flattened(NamedTuple):
 def area_normals(vertices: Array, triangles: NDArray[np.int64]) -> Array:
     """(T, 3): outwards, their lengths the areas."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    return np.asarray(np.cross(b - a, c - a) / 2)
+    return np.asarray(np.cross(b - a, c - a) / 2, dtype=np.float64)
 
 
 def _unit(vector: Array) -> Array:
     length = float(np.linalg.norm(vector))
     if not length > 0:
         raise UsageError("the surface has no mean direction: it is closed, or has no area")
-    return vector / length
+    return np.asarray(vector / length, dtype=np.float64)
 
 
 def axes_seen_along(normal: Array, up: Optional[ArrayLike]) -> Tuple[Array, Array]:
@@ -44,7 +44,7 @@ def axes_seen_along(normal: Array, up: Optional[ArrayLike]) -> Tuple[Array, Arra
         up = (1.0, 0.0, 0.0) if abs(normal[1]) > np.sqrt(0.5) else (0.0, 1.0, 0.0)
     wanted = np.asarray(up, dtype=np.float64)
     upwards = _unit(wanted - (wanted @ normal) * normal)
-    return np.cross(upwards, normal), upwards
+    return np.asarray(np.cross(upwards, normal), dtype=np.float64), upwards
 
 
 def on_plane(vertices: Array, triangles: NDArray[np.int64], weights: Array,

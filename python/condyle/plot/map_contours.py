@@ -99,7 +99,7 @@ def _levels(values: Array, unit: str) -> Array:
     step = step_of_ticks(max(high - low, 1.0), MOST_LEVELS)
     first = math.floor(low / step)
     last = max(math.ceil(high / step), first + 1)
-    return np.arange(first, last + 1) * step
+    return np.arange(first, last + 1, dtype=np.float64) * step
 
 
 def _borders(values: Array) -> Array:

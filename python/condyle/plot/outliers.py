@@ -44,8 +44,8 @@ def joint_columns(study: Study) -> Dict[str, NDArray[np.float64]]:
     found = {name: values.astype(float) for name, values in hips.items()
              if values.dtype.kind == "f" and name != "table_row" and hips.units[name] != "h"
              and not (name.endswith(("_p5", "_p95")) and name.rpartition("_")[0] in hips)}
-    row = {joint: i for i, joint in enumerate(hips["id"].tolist())}
-    for motion in dict.fromkeys(limits["motion"].tolist()):
+    row = {joint: i for i, joint in enumerate(hips["id"])}
+    for motion in dict.fromkeys(limits["motion"]):
         of = limits["motion"] == motion
         found[limit_column(study, motion)] = column = np.full(len(row), np.nan)
         column[[row[joint] for joint in limits["id"][of].tolist()]] = limits["limit_deg"][of]
@@ -75,14 +75,14 @@ def outliers(study: Study) -> List[Outlier]:
     and the limits of each motion, as `flexion_limit_deg`. A limit at the end of the range counts with its value. There are no outliers in a column
     with fewer than 10 values, and none where more than half are the same: their median absolute deviation is 0.
     """
-    joints = study.hips["id"].tolist()
+    joints = list(study.hips["id"])
     found: List[Tuple[int, Outlier]] = []
     for name, values in joint_columns(study).items():
         reference = _reference(values)
         if isinstance(reference, str):
             continue
         median, deviation = reference
-        far = np.nonzero(np.abs(values - median) > FARTHEST * deviation)[0].tolist()
+        far = map(int, np.flatnonzero(np.abs(values - median) > FARTHEST * deviation))
         found += [(i, Outlier(joints[i], name, float(values[i]), median, float((values[i] - median) / deviation))) for i in far]
     return [each for _, each in sorted(found, key=lambda one: one[0])]
 

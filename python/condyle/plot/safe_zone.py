@@ -119,7 +119,8 @@ def _ends(zone: Zone) -> Iterator[Tuple[str, List[Tuple[float, float]]]]:
                     middle = ((x_of[i] + x_of[i + 1]) / 2, (at + next_at) / 2)
                     margin, next_margin = zone.margin_deg[i : i + 2, edge]
                     if (target is None) != (next_target is None) and margin * next_margin < 0:
-                        middle = (np.interp(0, *zip(*sorted([(margin, x_of[i]), (next_margin, x_of[i + 1])]))), zone.axes[1][edge])
+                        margins, places = zip(*sorted([(margin, x_of[i]), (next_margin, x_of[i + 1])]))
+                        middle = (np.interp(0, margins, places), zone.axes[1][edge])
                     if target is not None:
                         yield target, [(x_of[i], at), middle]
                     if next_target is not None:
@@ -157,7 +158,7 @@ def _over_two(ax: Axes, zone: Zone, quantity: str, looks: Dict[str, Dict[str, An
     else:
         low, high = max(float(np.nanmin(zone.margin_deg)), LOWEST_CONTOUR_DEG), float(np.nanmax(zone.margin_deg))
         step = step_of_ticks(max(high - low, 1.0), MOST_CONTOURS)
-        _contours(ax, zone, zone.margin_deg, np.arange(math.ceil(low / step), math.floor(high / step) + 1) * step, "°")
+        _contours(ax, zone, zone.margin_deg, np.arange(math.ceil(low / step), math.floor(high / step) + 1, dtype=np.float64) * step, "°")
     for target, look in looks.items():
         pieces = [piece for name, piece in _ends(zone) if name == target]
         if pieces:

@@ -42,7 +42,7 @@ def read(folder: Path) -> Study:
     for name, columns in _READ.items():
         _check(folder / f"{name}.csv", getattr(study, name), columns)
     limits, file = study.limits, folder / "limits.csv"
-    hips, seen = set(study.hips["id"].tolist()), set()
+    hips, seen = set(study.hips["id"]), set()
     for joint, motion, limit, reason in zip(*(limits[name].tolist() for name in ("id", "motion", "limit_deg", "reason"))):
         where = f"{file}: joint '{joint}', motion '{motion}'"
         if joint not in hips:
@@ -65,7 +65,7 @@ def _check(path: Path, table: StudyTable, columns: Dict[str, str]) -> None:
             raise ReadError(f"{path}: column '{column}' is not of {'numbers' if kind == 'f' else 'texts'}")
     if not table.rows:
         raise ReadError(f"{path}: no rows")
-    ids = table["id"].tolist()
+    ids = list(table["id"])
     if path.stem == "hips" and len(set(ids)) < len(ids):
         raise ReadError(f"{path}: column 'id': a joint stands there twice")
 
@@ -77,7 +77,7 @@ def figures_of(study: Study) -> List[Drawing]:
     for name, values in hips.items():
         if name != "side" and not hips.meanings[name].startswith("from the table"):
             continue
-        if values.dtype.kind == "O" and 1 < len(set(values.tolist())) <= MOST_GROUPS:
+        if values.dtype.kind == "O" and 1 < len(set(values)) <= MOST_GROUPS:
             found.append((_file(found, f"limits_by_{name}"), functools.partial(_by, study, name)))
         elif values.dtype.kind == "f" and len(set(values[np.isfinite(values.astype(float))].tolist())) > 1:
             found.append((_file(found, f"limits_against_{name}"), functools.partial(_against, study, name)))
@@ -116,7 +116,7 @@ def _panels(count: int, across: int, high_mm: float, draw: Callable[[Axes, int],
 
 def _against(study: Study, name: str) -> Figure:
     known = set(study.hips["id"][np.isfinite(study.hips[name].astype(float))].tolist())
-    motions = list(dict.fromkeys(motion for joint, motion in zip(study.limits["id"].tolist(), study.limits["motion"].tolist()) if joint in known))
+    motions = list(dict.fromkeys(motion for joint, motion in zip(study.limits["id"], study.limits["motion"]) if joint in known))
 
     def draw(ax: Axes, i: int) -> None:
         limit_against(study, name, motions[i], ax=ax)
