@@ -90,12 +90,20 @@ def write_licences(folder: Path, packages: set[str]) -> None:
             (folder / f"{name}.copyright").write_bytes(text)
 
 
-def metadata(project: dict, licences: list[str]) -> str:
+def knows_numpy_2(headers: list[str]) -> bool:
+    """Whether the module's pybind11 is 2.12 or newer: an older one reads the descriptions of types where numpy 1 has them."""
+    header, = (path for path in headers if path.endswith("/pybind11/detail/common.h"))
+    numbers = dict(re.findall(r"#define PYBIND11_VERSION_(MAJOR|MINOR)\s+(\d+)", Path(header).read_text(encoding="utf-8")))
+    return (int(numbers["MAJOR"]), int(numbers["MINOR"])) >= (2, 12)
+
+
+def metadata(project: dict, licences: list[str], numpy_2: bool) -> str:
     lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version()}",
              f"Summary: {project['description']}", f"License: {project['license']['text']}",
              f"Requires-Python: {project['requires-python']}"]
     lines += [f"License-File: {name}" for name in licences]
-    lines += [f"Requires-Dist: {package}" for package in project["dependencies"]]
+    lines += [f"Requires-Dist: {package}{'' if numpy_2 or not package.startswith('numpy') else ',<2'}"
+              for package in project["dependencies"]]
     for extra, packages in project["optional-dependencies"].items():
         lines.append(f"Provides-Extra: {extra}")
         lines += [f'Requires-Dist: {package}; extra == "{extra}"' for package in packages]
@@ -124,7 +132,7 @@ def main(build: Path, out: Path) -> None:
         write_licences(info / "licenses", set(debian_packages(libraries + inside).values()))
         tag = f"{python}-{python}-{platform_tag([module, *(unpacked / 'condyle.libs').iterdir()])}"
         licences = sorted(path.name for path in (info / "licenses").iterdir())
-        (info / "METADATA").write_text(metadata(project, licences), encoding="utf-8")
+        (info / "METADATA").write_text(metadata(project, licences, knows_numpy_2(inside)), encoding="utf-8")
         (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: condyle {version()}\nRoot-Is-Purelib: false\n"
                                     f"Tag: {tag}\n", encoding="utf-8")
         out.mkdir(parents=True, exist_ok=True)

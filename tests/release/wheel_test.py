@@ -67,6 +67,12 @@ for library in ("tbb", "fmt", "lz4", "zlib", "hwy", "toml"):
     assert any(library in name for name in licences), f"no licence of {library} among {licences}"
 assert {"condyle/py.typed", "condyle/_native.pyi"} <= set(names)
 
+# Numpy 2 is asked for by a module only whose pybind11 knows it.
+metadata, = (work / "unpacked").glob("*.dist-info/METADATA")
+pybind11 = run("dpkg-query", "-W", "-f", "${Version}", "pybind11-dev").stdout
+numpy_1_alone = tuple(map(int, pybind11.split(".")[:2])) < (2, 12)
+assert f"\nRequires-Dist: numpy>=1.24{',<2' if numpy_1_alone else ''}\n" in metadata.read_text(encoding="utf-8"), pybind11
+
 # Nothing there but numpy: no other package of the system's Python is seen.
 environment = work / "environment"
 run(sys.executable, "-m", "venv", environment)
