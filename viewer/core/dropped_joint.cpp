@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -259,8 +260,12 @@ const char* condyle_description(CondyleJoint* joint) {
     joint->range = answer.range, joint->range_held_at = Vec3::Zero();
     Json rom = io::rom_object(io::rom_result_of(answer, proposal.notes, nullptr));
     Json notes = Json::array();
+    const auto is_the_joints = [&](const io::LabelNote& note) {
+      return std::any_of(proposal.notes.begin(), proposal.notes.end(),
+                         [&](const JointNote& other) { return other.text == note.text; });
+    };
     for (const io::LabelNote& note : proposal.of_images)
-      notes.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+      if (!is_the_joints(note)) notes.push_back({{"code", name_of(note.code)}, {"text", note.text}});
     rom["notes"].insert(rom["notes"].begin(), notes.begin(), notes.end());
     rom["caveats"] = proposal.inferred;
     rom["provenance"] = {{"version", version},

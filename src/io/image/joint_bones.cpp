@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "condyle/error.hpp"
 #include "condyle/joint_checks.hpp"
 #include "core/one_line.hpp"
@@ -43,7 +41,8 @@ TouchingNotes notes_on_touching(const RequestedBone& fixed, const RequestedBone&
                                               touching.shared, of_fixed, of_mobile)});
   if (touching.faces > 0) {
     const Vec3& spacing = fixed.bone.surface.spacing;
-    const double area = static_cast<double>(touching.faces) * std::pow(spacing.prod(), 2.0 / 3);
+    const double area =
+        static_cast<double>(touching.faces) * spacing.dot(Vec3(spacing.y(), spacing.z(), spacing.x())) / 3;
     found.is_recorded |= area >= least_touching_mm2;
     found.notes.push_back(
         {LabelNoteCode::touching,
