@@ -89,6 +89,8 @@ struct LabelSurface {
   std::size_t dropped_components = 0;
   /// Lengths in mm of one step along each index axis.
   Vec3 spacing = Vec3::Zero();
+  /// How many slices along each index axis are alike, as of a map that was resampled to thinner ones by the nearest neighbour: they count as one.
+  Vec3 slices_in_one = Vec3::Ones();
   /// mm: about the largest distance between this surface and the boundary that was digitised, by experience, not as a bound.
   /// A voxel's half width along a unit normal n is about sqrt(sum_i (n . a_i)^2) / 2, a_i the steps along the index axes;
   /// this is its largest value over all n: half the largest singular value of the grid's matrix, hence half the largest

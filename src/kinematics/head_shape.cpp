@@ -13,7 +13,7 @@
 namespace condyle::kinematics {
 namespace {
 
-/// Of the sphere's radius: what a head stretched by a fifth is off its sphere.
+/// A head that is stretched by a fifth leaves its sphere by this share of the radius.
 constexpr double widest_band = 0.1;
 /// Cosine between a triangle's normal and the ray through it: a neck's is less, the inner wall of a cartilage's below 0.
 constexpr double least_facing = 0.8;

@@ -17,8 +17,9 @@ struct HeadShape {
 /// cams up to an alpha angle of 80 degrees nothing is left. Empty where they are no ellipsoid's. Linear in the mesh.
 std::optional<HeadShape> head_shape(const TriMesh& mesh, const Sphere& head);
 
-/// Of a hip whose head is longer one way than across: of two real femora the axes differ by 3 and 7 % (as label maps 8 %), of those whose slices lost a tenth of their
-/// spacing by 10 to 17 %, of those that a gantry's tilt of 10 degrees shears by 16 to 21 %. A sphere fits each of them, and its limits are off by tens of degrees.
+/// Says of a human hip that its head is longer one way than across. The axes of two real heads differ by 3 and 7 %. They differ by 10 % and more
+/// where slices lost a tenth of their spacing, and by 13 % and more where a gantry's tilt of 10 degrees shears them: a sphere fits such heads too, and limits
+/// are off by tens of degrees.
 std::optional<JointNote> head_shape_note(const Joint& joint, const Sphere& head);
 
 }  // namespace condyle::kinematics

@@ -71,6 +71,7 @@ TEST(RepeatedSlices, CountAsOne) {
       EXPECT_NEAR(mesh::slices_in_one(mask, axis), slice, 0.35);
       EXPECT_NEAR(mesh::slices_in_one(test::cropped(mask), axis), slice, 0.35);
       EXPECT_EQ(mesh::slices_in_one(mask, (axis + 1) % 3), 1);
+      EXPECT_NEAR(surface_of(mask).digitisation, slice / 2, 0.18);
     }
     EXPECT_EQ(mesh::slices_in_one(drawn_in_slices(axis, 1), axis), 1) << "a straight shaft";
   }

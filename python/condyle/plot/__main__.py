@@ -150,7 +150,7 @@ def _starter_is_gone() -> bool:
     """Whether the command that draws these figures was killed: its folder may be the next one's by now."""
     try:
         os.kill(int(os.environ.get("CONDYLE_STARTED_BY", os.getpid())), 0)
-    except ProcessLookupError:
+    except OSError:  # nobody has its number, or somebody else
         return True
     return False
 

@@ -74,7 +74,7 @@ std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image
   std::vector<std::string> lines;
   std::string alike;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
-    if (const double slices = bone.image.voxel.col(axis).norm() / bone.surface.spacing[axis]; slices > 1.01)
+    if (const double slices = bone.surface.slices_in_one[axis]; slices > 1)
       alike +=
           fmt::format(", of which {:.2g} in a row along {} are alike, and count as one", slices, "ijk"[axis]);
   lines.push_back(fmt::format("label {} of {}, {} voxels of {} mm{}", label_numbers(bone.label, ", "),

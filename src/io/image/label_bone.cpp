@@ -13,7 +13,6 @@
 #include "io/image/joint_bones.hpp"
 #include "kinematics/flat_ends.hpp"
 #include "mesh/enclosed_volume.hpp"
-#include "mesh/label_surface/repeated_slices.hpp"
 #include "mesh/label_surface/voxel_pieces.hpp"
 
 namespace condyle::io {
@@ -219,8 +218,6 @@ std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, con
   const double voxel_mm3 = std::abs(mask.image.X_WI.linear().determinant());
   add_left_out(kept.left_out, voxel_mm3, bone.surface.pieces);
   bone.image = image_of(map.grid, bone.surface);
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-    bone.image.voxel.col(axis) *= mesh::slices_in_one(mask, static_cast<std::size_t>(axis));
   bone.notes = bone.label.notes;
   double other_side_mm3 = 0;
   for (const mesh::LeftOutPiece& piece : kept.left_out)
@@ -236,7 +233,7 @@ std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, con
 }  // namespace
 
 BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface) {
-  BodyImage image{grid.X_WI.linear(), {}};
+  BodyImage image{grid.X_WI.linear() * surface.slices_in_one.asDiagonal(), {}};
   for (const CapPlane& cap : surface.caps) image.cuts.push_back({cap.normal, cap.offset});
   return image;
 }

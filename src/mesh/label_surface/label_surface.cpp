@@ -12,6 +12,7 @@
 #include "mesh/label_surface/bone_components.hpp"
 #include "mesh/label_surface/contour.hpp"
 #include "mesh/label_surface/mask_checks.hpp"
+#include "mesh/label_surface/repeated_slices.hpp"
 #include "mesh/label_surface/simplify.hpp"
 #include "mesh/label_surface/smoothed_field.hpp"
 #include "mesh/label_surface/voxel_pieces.hpp"
@@ -146,7 +147,10 @@ std::optional<LabelSurface> surface_of(const VoxelMask& mask, const LabelSurface
   surface.mesh = std::move(contour->mesh);
   const Eigen::Matrix3d& steps_along_axes = mask.image.X_WI.linear();
   surface.spacing = steps_along_axes.colwise().norm();
-  surface.digitisation = Eigen::JacobiSVD<Eigen::Matrix3d>(steps_along_axes).singularValues()[0] / 2;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    surface.slices_in_one[static_cast<Eigen::Index>(axis)] = mesh::slices_in_one(mask, axis);
+  const Eigen::Matrix3d drawn_in = steps_along_axes * surface.slices_in_one.asDiagonal();
+  surface.digitisation = Eigen::JacobiSVD<Eigen::Matrix3d>(drawn_in).singularValues()[0] / 2;
   if (!steps.next()) return std::nullopt;
   return surface;
 }
