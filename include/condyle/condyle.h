@@ -55,7 +55,7 @@ enum {
 /// the next call that fails in this thread.
 CONDYLE_API const char* condyle_last_error(void);
 
-/// Version of the library: "0.1.0".
+/// Version of the library: "0.2.0".
 CONDYLE_API const char* condyle_version(void);
 
 /// Which of the two bodies.
