@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench bench-summary verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits finite-elements growth
+  package package-test wheel page-core page-core-alone page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits finite-elements growth
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -50,10 +50,13 @@ test: dependencies
 	@cmake --build --preset release
 	@$(call run_tests,release,slow|nightly)
 
+# What has passed them is written down for make release: a commit, and nothing where files are changed.
 test-all: dependencies
 	@$(configure_all)
 	@cmake --build --preset release
+	@rm -f build/tested
 	@$(call run_tests,release,nightly)
+	@[ -n "$$(git status --porcelain 2>&1)" ] || git rev-parse HEAD >build/tested
 
 # Writes what is made from the tables of records: classes of Python, types of the page, tables of docs/.
 describe: dependencies
@@ -145,16 +148,19 @@ verify: bench_dependencies
 	@cmake --build --preset release --target condyle_verify
 	@build/release/condyle-verify
 
-# The core compiled to WebAssembly, and its answers held against the native ones bit for bit. Emscripten's linker looks for
-# Debian's modules of node by NODE_PATH.
+# The core compiled to WebAssembly. Emscripten's linker looks for Debian's modules of node by NODE_PATH.
 # Not a python that a version manager looks up at each of some hundred calls.
-page-core: export EMSDK_PYTHON = /usr/bin/python3
-page-core: dependencies
+page-core-alone: export EMSDK_PYTHON = /usr/bin/python3
+page-core-alone:
+	@scripts/install_dependencies.sh command emscripten
+	@emcmake cmake -S viewer/core -B build/page_core -G Ninja >/dev/null
+	@NODE_PATH=/usr/share/nodejs cmake --build build/page_core
+
+# Its answers held against the native ones bit for bit.
+page-core: page-core-alone dependencies
 	@scripts/install_dependencies.sh page
 	@$(configure_all)
 	@cmake --build --preset release --target page_core_answers
-	@emcmake cmake -S viewer/core -B build/page_core -G Ninja >/dev/null
-	@NODE_PATH=/usr/share/nodejs cmake --build build/page_core
 	@mkdir -p build/page_core/test
 	@build/release/page_core_answers --sample build/page_core/test
 	@node tests/viewer/same_bits.mjs build/page_core/page_core.js build/page_core/test
@@ -198,7 +204,7 @@ docs: docs_dependencies
 
 # The npm package in out/npm: the command compiled to WebAssembly for node, and the page's core as a module.
 npm: export EMSDK_PYTHON = /usr/bin/python3
-npm: page-core
+npm: page-core-alone
 	@emcmake cmake -S npm -B build/npm -G Ninja >/dev/null
 	@NODE_PATH=/usr/share/nodejs cmake --build build/npm
 	@scripts/npm_package.sh build/npm build/page_core out/npm
@@ -271,9 +277,9 @@ static-test: image dependencies
 	@cmake --build --preset release --target condyle_cli
 	@ctest --preset release -R '^(static_command|image)$$' --no-tests=error
 
-# A release in out/release from a clean tree: sources, packages, wheel, template, list of materials; each is run.
+# A release in out/release from a clean tree that has passed make test-all: every artefact with its list of materials; each is run.
 release: dependencies docs_dependencies
-	@scripts/install_dependencies.sh wheel
+	@scripts/install_dependencies.sh wheel emscripten
 	@scripts/release.sh
 
 # The packages on a bare Debian, and the wheel on another.

@@ -6,6 +6,7 @@
 #   install_dependencies.sh bench     and for make bench; groups can be named together
 #   install_dependencies.sh docs      and for make docs and make package
 #   install_dependencies.sh node      and for make ro-crate
+#   install_dependencies.sh emscripten   and for make npm
 #   install_dependencies.sh page      and for make page-core, make page and make page-template
 #   install_dependencies.sh package-test   and for make package-test
 #   install_dependencies.sh wheel     for make wheel; with docs, for make release
@@ -45,7 +46,10 @@ for group in "$@"; do
       ;;
     docs) packages+=(doxygen) ;;
     page)
-      packages+=(emscripten chromium)
+      packages+=(chromium)
+      ;&
+    emscripten)
+      packages+=(emscripten)
       ;&
     node)
       packages+=(nodejs)
@@ -65,7 +69,7 @@ for group in "$@"; do
       ;&
     snakemake) packages+=(snakemake) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, page, package-test, wheel, image, windows, finite-elements, snakemake, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, emscripten, page, package-test, wheel, image, windows, finite-elements, snakemake, workflow" >&2
       exit 2
       ;;
   esac

@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""Writes what Condyle is made of as SPDX 2.3: make_sbom.py BUILD_FOLDER SBOM.
+"""Writes what an artefact is made of as SPDX 2.3: make_sbom.py BUILD_FOLDER SBOM [PROGRAM...].
 
-Three kinds, none listed by hand: libraries that the command and the Python module load (ldd), packages whose headers were
-compiled in or whose static libraries were linked in (what ninja noted of each), and web packages bundled into the page of a report
-(what its sources import, with their dependencies in package-lock.json). Debian's packages are asked for version and licence; a
-licence without an SPDX name is NOASSERTION and its own text is named.
+PROGRAMs lie in BUILD_FOLDER: the command and the Python module where none is named. Three kinds, none listed by hand: libraries that
+they load (ldd), packages whose headers were compiled in or whose static libraries were linked in (what ninja noted of each), and web
+packages bundled into the page of a report (what its sources import, with their dependencies in package-lock.json). Debian's packages
+are asked for version and licence; where SPDX has no name for a licence, the text that Debian's package has of it is enclosed.
 """
 
 import json
+import os
 import re
 import subprocess
 import sys
+import time
 from datetime import datetime, timezone
 from pathlib import Path
 
@@ -37,15 +39,18 @@ def version() -> str:
 
 
 def libraries_of(program: Path) -> list[str]:
-    """Paths of the shared libraries that a program or module loads, those of its libraries too."""
-    paths = set(re.findall(r"(/\S+) \(0x", output_of("ldd", str(program))))
+    """Paths of the shared libraries that a program or module loads, those of its libraries too: none of a static one."""
+    said = subprocess.run(["ldd", str(program)], capture_output=True, text=True, check=False)
+    if said.returncode and not re.search("not a dynamic|not a valid", said.stdout + said.stderr):
+        sys.exit(f"make_sbom.py: {program}: {said.stderr.strip()}")
+    paths = set(re.findall(r"(/\S+) \(0x", said.stdout))
     # No file says so: oneTBB loads its memory pool from its own folder, where that is there.
     pools = [Path(path).with_name("libtbbmalloc.so.2") for path in paths if Path(path).name.startswith("libtbb.")]
     return sorted(paths | {str(pool) for pool in pools if pool.exists()})
 
 
-def headers_of(build: Path, folders: tuple[str, ...] = ("src/", "cli/", "python/")) -> list[str]:
-    """Headers of the system that the objects of the libraries, the command and the module were compiled with."""
+def headers_of(build: Path, folders: tuple[str, ...]) -> list[str]:
+    """Headers of the system that the objects below these folders were compiled with."""
     headers: set[str] = set()
     ours = False
     for line in output_of("ninja", "-C", str(build), "-t", "deps").splitlines():
@@ -83,34 +88,43 @@ def debian_packages(paths: list[str]) -> dict[str, str]:
     return packages
 
 
-def debian_licence(package: str) -> tuple[str, str]:
-    """SPDX name, and Debian's own word for the package's files as a whole."""
-    path = Path("/usr/share/doc") / package.split(":")[0] / "copyright"
+def debian_licence(package: str) -> tuple[str, str, str]:
+    """SPDX name, Debian's own word for the package's files as a whole, and where SPDX has no name, the text."""
+    name = package.split(":")[0]
+    path = Path("/usr/share/doc") / name / "copyright"
     if not path.exists():
-        return "NOASSERTION", "no copyright file"
+        sys.exit(f"make_sbom.py: {name} has no {path}")
     text = path.read_text(errors="replace")
     whole = re.search(r"^Files:\s*\*\s*$.*?^License:[ \t]*(\S.*?)?$", text, re.MULTILINE | re.DOTALL)
     word = (whole.group(1) or "").strip() if whole else ""
-    name = SPDX_NAMES.get(word, word)
-    return (name if name in KNOWN else "NOASSERTION"), f"{word or 'in words'}: {path}"
+    spdx = SPDX_NAMES.get(word, word)
+    comment = f"{word or 'in words'}: {path}"
+    return (spdx, comment, "") if spdx in KNOWN else (f"LicenseRef-Debian-{identifier_part(name)}", comment, text)
+
+
+def identifier_part(text: str) -> str:
+    return re.sub(r"[^A-Za-z0-9.-]", "-", text)
 
 
 def identifier(*parts: str) -> str:
-    return "SPDXRef-" + re.sub(r"[^A-Za-z0-9.-]", "-", "-".join(parts))
+    return "SPDXRef-" + identifier_part("-".join(parts))
 
 
-def entry(kind: str, name: str, of_version: str, licence: str, comment: str, url: str) -> dict:
-    return {"SPDXID": identifier(kind, name), "name": name, "versionInfo": of_version, "downloadLocation": "NOASSERTION",
-            "filesAnalyzed": False, "licenseConcluded": "NOASSERTION", "licenseDeclared": licence,
-            "licenseComments": comment, "copyrightText": "NOASSERTION",
+def entry(kind: str, name: str, of_version: str, place: str, licence: str, comment: str, url: str) -> dict:
+    return {"SPDXID": identifier(kind, name), "name": name, "versionInfo": of_version, "downloadLocation": place,
+            "filesAnalyzed": False, "licenseDeclared": licence, "licenseComments": comment,
             "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": url}]}
 
 
-def debian_entry(package: str) -> dict:
-    of_version, architecture = output_of("dpkg-query", "-W", "-f", "${Version} ${Architecture}", package).split()
-    licence, comment = debian_licence(package)
+def debian_entry(package: str) -> tuple[dict, dict | None]:
+    """The package, and its licence's text where SPDX has no name for it."""
+    fields = "${Version} ${Architecture} ${source:Package} ${source:Version}"
+    of_version, architecture, source, source_version = output_of("dpkg-query", "-W", "-f", fields, package).split()
+    licence, comment, text = debian_licence(package)
     name = package.split(":")[0]
-    return entry("Debian", name, of_version, licence, comment, f"pkg:deb/debian/{name}@{of_version}?arch={architecture}")
+    return (entry("Debian", name, of_version, f"https://sources.debian.org/src/{source}/{source_version.split(':')[-1]}/", licence,
+                  comment, f"pkg:deb/debian/{name}@{of_version}?arch={architecture}"),
+            {"licenseId": licence, "name": f"as Debian's {name} states it", "extractedText": text} if text else None)
 
 
 def web_packages() -> list[dict]:
@@ -126,27 +140,29 @@ def web_packages() -> list[dict]:
     while asked:
         name = asked.pop()
         locked = lock["node_modules/" + name]
-        found[name] = entry("npm", name, locked["version"], locked["license"], "package-lock.json",
-                            f"pkg:npm/{name}@{locked['version']}")
+        found[name] = entry("npm", name, locked["version"], f"https://www.npmjs.com/package/{name}/v/{locked['version']}", locked["license"],
+                            "package-lock.json", f"pkg:npm/{name}@{locked['version']}")
         asked |= set(locked.get("dependencies", {})) - set(found)
     return [found[name] for name in sorted(found)]
 
 
-def sbom_of(build: Path) -> dict:
-    programs = [build / "condyle", *(build / "python/condyle").glob("_native*.so")]
-    programs = [program for program in programs if program.exists()]
+def sbom_of(build: Path, programs: list[Path]) -> dict:
     linked = debian_packages([path for program in programs for path in libraries_of(program)])
-    compiled_in = debian_packages(headers_of(build) + archives_of(build, programs))
+    # A build with tests has objects that no artefact holds.
+    folders = {f"{program.relative_to(build).parts[0]}/" if program.parent != build else "cli/" for program in programs} | {"src/"}
+    compiled_in = debian_packages(headers_of(build, tuple(folders) if (build / "tests").exists() else ("",)) + archives_of(build, programs))
     unknown = {path for program in programs for path in libraries_of(program)} - set(linked)
     if unknown:
         sys.exit(f"make_sbom.py: of no Debian package: {', '.join(sorted(unknown))}")
     own = version()
-    condyle = {"SPDXID": "SPDXRef-condyle", "name": "condyle", "versionInfo": own, "downloadLocation": "NOASSERTION",
+    condyle = {"SPDXID": "SPDXRef-condyle", "name": "condyle", "versionInfo": own, "downloadLocation": "NONE",
                "filesAnalyzed": False, "licenseConcluded": "Apache-2.0", "licenseDeclared": "Apache-2.0",
                "copyrightText": "Copyright 2026 The Condyle authors"}
-    packages, relations = [condyle], [("SPDXRef-DOCUMENT", "DESCRIBES", "SPDXRef-condyle")]
+    packages, relations, texts = [condyle], [("SPDXRef-DOCUMENT", "DESCRIBES", "SPDXRef-condyle")], []
     for package in sorted(set(linked.values()) | set(compiled_in.values())):
-        packages.append(debian_entry(package))
+        made_of, text = debian_entry(package)
+        packages.append(made_of)
+        texts += [text] if text else []
         if package in linked.values():
             relations.append(("SPDXRef-condyle", "DYNAMIC_LINK", packages[-1]["SPDXID"]))
         if package in compiled_in.values():
@@ -154,21 +170,24 @@ def sbom_of(build: Path) -> dict:
     for package in web_packages():
         packages.append(package)
         relations.append(("SPDXRef-condyle", "CONTAINS", package["SPDXID"]))
-    made = datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    made = datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
     return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"condyle-{own}",
             "documentNamespace": f"urn:condyle:sbom:{own}:{made}",
             "creationInfo": {"created": made, "creators": ["Organization: The Condyle authors", "Tool: make_sbom.py"]},
-            "packages": packages,
+            "packages": packages, "hasExtractedLicensingInfos": texts,
             "relationships": [{"spdxElementId": a, "relationshipType": kind, "relatedSpdxElement": b} for a, kind, b in relations]}
 
 
 def main() -> None:
-    if len(sys.argv) != 3:
-        sys.exit("usage: make_sbom.py BUILD_FOLDER SBOM")
-    build, out = map(Path, sys.argv[1:])
+    if len(sys.argv) < 3:
+        sys.exit("usage: make_sbom.py BUILD_FOLDER SBOM [PROGRAM...]")
+    build, out, *programs = map(Path, sys.argv[1:])
+    programs = [build / program for program in programs]
+    if not programs:
+        programs = [path for path in (build / "condyle", *(build / "python/condyle").glob("_native*.so")) if path.exists()]
     out.parent.mkdir(parents=True, exist_ok=True)
     beside = out.with_name(out.name + ".part")
-    beside.write_text(json.dumps(sbom_of(build), indent=1) + "\n")
+    beside.write_text(json.dumps(sbom_of(build, programs), indent=1) + "\n")
     beside.rename(out)
 
 
