@@ -2,7 +2,10 @@
 # it in. Its static library where that can be part of a shared one, since the shared one loads 29 others to reach the network:
 # docs/decisions/0021-hdf5-inside.md. One header and one library are used; CMake's own module wants a C compiler and links its
 # packages too.
-find_path(CONDYLE_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
+find_path(CONDYLE_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial)
+if(NOT CONDYLE_HDF5_INCLUDE)
+  condyle_missing(HDF5)
+endif()
 find_library(CONDYLE_HDF5_STATIC NAMES libhdf5_serial.a libhdf5.a PATH_SUFFIXES hdf5/serial)
 # Compression of HDF5's that is not used here, but that it knows.
 find_library(CONDYLE_SZIP_STATIC libsz.a)

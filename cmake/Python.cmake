@@ -5,9 +5,11 @@ if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
 endif()
 find_package(Python 3.9 COMPONENTS Interpreter Development.Module NumPy)
 find_package(pybind11 2.10 CONFIG QUIET)
-if(NOT Python_FOUND OR NOT Python_NumPy_FOUND OR NOT pybind11_FOUND)
-  message(FATAL_ERROR "The Python module needs pybind11, numpy and the headers of ${Python_EXECUTABLE} "
-                      "(Debian: pybind11-dev python3-numpy python3-dev), or -DCONDYLE_PYTHON=OFF")
+if(NOT pybind11_FOUND)
+  condyle_missing(pybind11 "; or -DCONDYLE_PYTHON=OFF")
+elseif(NOT Python_FOUND OR NOT Python_NumPy_FOUND)
+  message(FATAL_ERROR "The Python module needs numpy and the headers of ${Python_EXECUTABLE} "
+                      "(Debian: python3-numpy python3-dev), or -DCONDYLE_PYTHON=OFF")
 endif()
 
 # Where that Python looks under a prefix; both /usr and /usr/local have it on Debian.

@@ -1,7 +1,7 @@
 # What parallel loops run on, as CONDYLE_THREADS says; src/core/parallel.hpp and the headers beside it are all that know. Gives
 # condyle_threads, to link. Why a pool of our own beside oneTBB: docs/decisions/0031-thread-pool.md.
 if(CONDYLE_THREADS STREQUAL "tbb")
-  find_package(TBB REQUIRED)
+  condyle_find_package(TBB)
   set(condyle_threads TBB::tbb)
 elseif(CONDYLE_THREADS STREQUAL "std")
   set(THREADS_PREFER_PTHREAD_FLAG ON)
