@@ -79,6 +79,50 @@ struct Total {
   void add(const Sum& sum) { volume.add(sum.volume), error.add(sum.error); }
 };
 
+/// A body's prisms in the order of triangles. Triangles that coincide are one, with the sum of their signs: a body that has each of them
+/// eight times would else have 64 times the pairs.
+struct Prisms {
+  std::vector<Prism> once;
+  std::vector<Prism> again;  ///< those that are one with others, each as it is
+
+  explicit Prisms(std::vector<Prism> all) : once(std::move(all)) {
+    std::vector<std::pair<std::array<double, 6>, std::size_t>> by_box;
+    by_box.reserve(once.size());
+    for (std::size_t i = 0; i < once.size(); ++i) by_box.emplace_back(once[i].box(), i);
+    std::sort(by_box.begin(), by_box.end());
+    std::vector<std::vector<std::size_t>> groups;  // of one box, each of triangles that coincide
+    std::vector<char> is_one_with(once.size());
+    for (std::size_t first = 0, last = 0; first < by_box.size(); first = last) {
+      while (last < by_box.size() && by_box[last].first == by_box[first].first) ++last;
+      if (last - first == 1) continue;
+      groups.clear();
+      for (std::size_t at = first; at < last; ++at) {
+        const std::size_t i = by_box[at].second;
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
+          return once[members[0]].coincides_with(once[i]);
+        });
+        group == groups.end() ? groups.push_back({i}) : group->push_back(i);
+      }
+      for (const auto& group : groups) merge(group, is_one_with);
+    }
+    if (again.empty()) return;
+    std::sort(again.begin(), again.end(),
+              [](const Prism& a, const Prism& b) { return a.triangle < b.triangle; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < once.size(); ++i)
+      if (!is_one_with[i] && once[i].sign != 0) once[kept++] = once[i];
+    once.erase(once.begin() + static_cast<std::ptrdiff_t>(kept), once.end());
+  }
+
+ private:
+  void merge(const std::vector<std::size_t>& group, std::vector<char>& is_one_with) {
+    if (group.size() < 2) return;
+    for (const std::size_t i : group) again.push_back(once[i]);
+    for (std::size_t k = 1; k < group.size(); ++k)
+      once[group[0]].sign += once[group[k]].sign, is_one_with[group[k]] = 1;
+  }
+};
+
 /// The overlap's box and both surfaces about it, turned so that nothing runs along z. z is 0 at the box's bottom.
 class Columns {
  public:
@@ -96,21 +140,34 @@ class Columns {
     const Vec3 r = seen(reach).cwiseAbs();
     bottom_ = -r.z();
     crop_ = {-r.x(), r.x(), -r.y(), r.y(), 2 * r.z()};
-    fixed_.emplace(crop_, prisms_of(fixed.surface, of_fixed));
-    mobile_.emplace(crop_, prisms_of(mobile.surface, of_mobile));
+    Prisms of_fixed_once(prisms_of(fixed.surface, of_fixed)),
+        of_mobile_once(prisms_of(mobile.surface, of_mobile));
+    fixed_.emplace(Body{Grid(crop_, std::move(of_fixed_once.once)), std::move(of_fixed_once.again)});
+    mobile_.emplace(Body{Grid(crop_, std::move(of_mobile_once.once)), std::move(of_mobile_once.again)});
   }
 
-  const Grid& fixed() const noexcept { return *fixed_; }
-  const Grid& mobile() const noexcept { return *mobile_; }
+  const Grid& fixed() const noexcept { return fixed_->grid; }
+  const Grid& mobile() const noexcept { return mobile_->grid; }
+
+  /// What is below a triangle of the body that has this grid; nothing if that is beside the crop.
+  const Prism* below(const Grid& own, Index triangle) const noexcept {
+    for (const std::vector<Prism>* prisms :
+         {&(&own == &fixed_->grid ? fixed_ : mobile_)->again, &own.prisms()}) {
+      const auto found = std::lower_bound(prisms->begin(), prisms->end(), triangle,
+                                          [](const Prism& p, Index t) { return p.triangle < t; });
+      if (found != prisms->end() && found->triangle == triangle) return &*found;
+    }
+    return nullptr;
+  }
 
   /// Integral of the product of both bodies' winding numbers over the crop.
   Total common_volume() const {
-    std::vector<Sum> sums(mobile_->prisms().size());
+    std::vector<Sum> sums(mobile().prisms().size());
     core::parallel_chunks(sums.size(), 32, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        const Prism& prism = mobile_->prisms()[i];
+        const Prism& prism = mobile().prisms()[i];
         const Polygon part = crop_.of(prism);
-        fixed_->for_each_near(prism,
+        fixed().for_each_near(prism,
                               [&](Index, const Prism& other) { add_common(prism, part, other, 1, sums[i]); });
       }
     });
@@ -130,7 +187,8 @@ class Columns {
         body.for_each_near(prism, [&](Index j, const Prism& other) {
           if (j > i) add_common(prism, part, other, 2, sums[i]);
         });
-        if (prism.sign < 0) sums[i].volume += 2 * integral_between(part, crop_.top);
+        if (const double s = prism.sign; s != 1)
+          sums[i].volume += s * (s - 1) * integral_between(part, crop_.top);
       }
     });
     Total total;
@@ -233,7 +291,7 @@ class Columns {
         area += piece;
         moment += piece / 3 * Vec3(o.x + a.x + b.x, o.y + a.y + b.y, o.z + a.z + b.z);
       }
-      noise += width_of_common(prism, other);
+      noise += std::abs(other.sign) * width_of_common(prism, other);
     });
     // Two units for each length that is cut, times its coordinates.
     if (!(area > 64 * unit_rounding * size_ * noise)) return std::nullopt;
@@ -359,7 +417,7 @@ class Columns {
       volume += integral_between(part_above, crop_.top);
     }
     sum.volume += times * i.sign * j.sign * volume;
-    sum.error += times * 64 * size_ *
+    sum.error += times * std::abs(i.sign * j.sign) * 64 * size_ *
                  (2 * width_of_common(i, j) * highest + std::abs(area) * (1 + i.secant + j.steepness));
   }
 
@@ -376,7 +434,11 @@ class Columns {
   double bottom_ = 0;
   Crop crop_{};
   double size_ = 0, surface_ = 0;
-  std::optional<Grid> fixed_, mobile_;
+  struct Body {
+    Grid grid;
+    std::vector<Prism> again;
+  };
+  std::optional<Body> fixed_, mobile_;
 };
 
 /// Triangles that are in a pair, in their order.
@@ -398,15 +460,9 @@ PatchPart whole_triangle(const TriMesh& mesh, Index triangle) {
 std::vector<PatchPart> patch_of(const OverlapBody& body, const std::vector<Index>& in_pairs,
                                 const Columns& columns, const Grid& own, const Grid& other) {
   std::vector<std::optional<PatchPart>> parts(in_pairs.size());
-  const std::vector<Prism>& prisms = own.prisms();
   core::parallel_chunks(in_pairs.size(), 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto prism =
-          std::lower_bound(prisms.begin(), prisms.end(), in_pairs[i],
-                           [](const Prism& p, Index triangle) { return p.triangle < triangle; });
-      if (prism != prisms.end() && prism->triangle == in_pairs[i])
-        parts[i] = columns.part_inside(*prism, other);
-    }
+    for (std::size_t i = first; i < last; ++i)
+      if (const Prism* prism = columns.below(own, in_pairs[i])) parts[i] = columns.part_inside(*prism, other);
   });
   std::vector<PatchPart> patch;
   std::size_t next = 0;

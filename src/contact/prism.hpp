@@ -115,7 +115,7 @@ inline double integral_between(const Polygon& polygon, double top) noexcept {
 class Prism {
  public:
   Index triangle;
-  double sign;        ///< of its normal's z
+  double sign;        ///< of its normal's z; the sum where it stands for several that coincide
   double twice_area;  ///< seen along z, above 0
   double secant;      ///< area over area seen along z
   double area;
@@ -150,6 +150,16 @@ class Prism {
                       (prism.high_z - prism.low_z) / prism.twice_area;
     for (std::size_t k = 0; k < 3; ++k) prism.edges_[k] = Edge(corners[k], corners[(k + 1) % 3]);
     return prism;
+  }
+
+  std::array<double, 6> box() const noexcept { return {low_x, low_y, low_z, high_x, high_y, high_z}; }
+
+  /// Whether the other triangle has these corners, whichever way round.
+  bool coincides_with(const Prism& other) const noexcept {
+    return std::all_of(corners.begin(), corners.end(), [&](const Corner& a) {
+      return std::any_of(other.corners.begin(), other.corners.end(),
+                         [&](const Corner& b) { return a.x == b.x && a.y == b.y && a.z == b.z; });
+    });
   }
 
   bool may_share_a_column_with(const Prism& other) const noexcept {

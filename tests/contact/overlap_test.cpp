@@ -312,13 +312,25 @@ TEST(Overlap, WithABodyThatCoversSpaceTwiceSaysSo) {
     }
   // Twice each triangle and thrice: as often again.
   const TriMesh ball = moved(off_centre, icosphere(2, 3, {9, 4, 4}));
-  const double once = *measured_overlap(ten, ball).volume_mm3;
+  const contact::ContactMeasures single = measured_overlap(ten, ball);
+  const double once = *single.volume_mm3;
+  TriMesh many = ball;
   for (int times = 2; times <= 3; ++times) {
-    TriMesh many = ball;
-    for (int k = 1; k < times; ++k)
-      many.triangles.insert(many.triangles.end(), ball.triangles.begin(), ball.triangles.end());
-    EXPECT_NEAR(measured_overlap(ten, many).mobile_covered_again_mm3, (times - 1) * once, 1e-9) << times;
+    TriMesh copy = ball;
+    for (Triangle& corners : copy.triangles) corners = {corners[1], corners[2], corners[0]};
+    many = joined(many, copy);
+    const contact::ContactMeasures again = measured_overlap(ten, many);
+    EXPECT_NEAR(*again.volume_mm3, times * once, 2 * again.volume_error_mm3) << times;
+    EXPECT_NEAR(again.mobile_covered_again_mm3, (times - 1) * once, 1e-9) << times;
+    EXPECT_NEAR(again.mobile->area_mm2, times * single.mobile->area_mm2, 1e-9) << times;
   }
+  // One of the three turned over leaves one of them.
+  const std::size_t n = ball.triangles.size();
+  for (std::size_t t = n; t < 2 * n; ++t) std::swap(many.triangles[t][0], many.triangles[t][1]);
+  const contact::ContactMeasures one = measured_overlap(ten, many);
+  EXPECT_NEAR(*one.volume_mm3, once, 2 * one.volume_error_mm3);
+  EXPECT_EQ(one.mobile_covered_again_mm3, 0);
+  EXPECT_NEAR(one.fixed->area_mm2, single.fixed->area_mm2, 1e-9);
 }
 
 /// The part of a ball below a plane, triangle by triangle, and the section of the ball there.
