@@ -25,6 +25,7 @@
 #include "io/file/failure.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
+#include "io/file/temporary_folder.hpp"
 #include "io/image/hips_of_labels.hpp"
 #include "io/image/unread_image.hpp"
 #include "io/joint/settings_lines.hpp"
@@ -232,13 +233,7 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
     plan->bands = request.range.bands;
     plan->confidence = confidence_of(options.cut, plan->bands);
     plan->curve_points = 0;  // each costs a cut: condyle resect has them
-    try {
-      check_gains(hip.loaded, request.range, *plan);
-    } catch (const UsageError&) {
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);  // all in it is of this run, which the next one may ask anew
-      throw;
-    }
+    check_gains(hip.loaded, request.range, *plan);
   }
   hip.answer =
       with_progress([&](const Control& control) { return io::answer_report(hip.loaded, request, control); });
@@ -371,21 +366,29 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
   say_as(options.form);
   if (!options.cut.targets.empty())
     (void)reach_targets(motion::hip_motions(), options.cut.targets);  // throws before the work
+  // Another run that begins before this one ends finds no empty folder: it would read this one's joint.
+  const io::TemporaryFolder held(options.out);
+  if (!held.is_alone()) check_out(options);
   std::list<AnsweredHip> answered;
   std::exception_ptr refused;  // one hip without an answer does not keep the other from having one
   const std::vector<Propose> joints = of_labels ? joints_of_labels(options) : joints_of_meshes(options);
   const WholeProgress progress("hip", pieces_of_work(options, of_labels, joints.size()));
   for (const Propose& propose : joints) {
     std::string whose;
+    fs::path folder;
     try {
       Proposed proposed = propose();
       if (options.side && proposed.joint.side.value_or(*options.side) != *options.side) continue;
       const Side side = write_joint(options, proposed);
       whose = std::string(name_of(side)) + ": ";
+      folder = options.joint_file(side).parent_path();
       answer_hip(options, side, command, answered);
     } catch (const Interrupted&) {
       throw;
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+      // An unfit mesh has a page that says so; of a disk that is full, or of a plan that is refused, nothing stays.
+      std::error_code ignored;
+      if (!folder.empty() && !dynamic_cast<const MeshError*>(&error)) fs::remove_all(folder, ignored);
       if (refused) note(whose + io::failure_of_current_exception().message);
       if (!refused) refused = current_error_of(whose);
     }

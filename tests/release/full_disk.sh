@@ -26,6 +26,7 @@ before() { case $1 in
   motion) "$condyle" motion sample/hip.toml --motion squat.csv --casting fixed --out "$out" ;;
   study) "$condyle" study hips.csv --motion extension --out "$out" ;;
   sample) "$condyle" sample hip --out "$out" ;;
+  hip) ;; # its folder has to be empty
 esac; }
 after() { case $1 in
   rom) "$condyle" rom sample/hip.toml --out "$out" ;;
@@ -33,10 +34,11 @@ after() { case $1 in
   motion) "$condyle" motion sample/hip.toml --motion squat.csv --out "$out" ;;
   study) "$condyle" study hips.csv --motion flexion --out "$out" ;;
   sample) "$condyle" sample hip --scenario 3 --out "$out" ;;
+  hip) "$condyle" hip sample/hip_bone.ply sample/femur.ply --samples 0 --out "$out" ;;
 esac; }
 
 full=0
-for command in rom report motion study sample; do
+for command in rom report motion study sample hip; do
   rm -rf room/*
   out=room/result
   mkdir -p "$out"
@@ -59,7 +61,10 @@ for command in rom report motion study sample; do
     [ "$(ls -A disk | sort | xargs)" = "filler result" ] || fail "$command, fill $i: left $(ls -A disk)"
     rm disk/filler
     after "$command" >/dev/null 2>&1
-    diff -r -x .condyle-rows room/result "$out" || fail "$command, fill $i: other bytes after the disk was full"
+    # Files of hip name its folder, packed in some.
+    packed=()
+    [ "$command" != hip ] || { packed=(-x '*.html' -x '*.vtp') && find "$out" -type f -exec sed -i 's#disk/result#room/result#g' {} +; }
+    diff -r -x .condyle-rows "${packed[@]}" room/result "$out" || fail "$command, fill $i: other bytes after the disk was full"
     umount disk
     full=$((full + 1))
   done

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <system_error>
 
 #include "condyle/error.hpp"
@@ -65,6 +66,10 @@ TemporaryFolder::TemporaryFolder(const fs::path& folder)
   }
   throw FileError(
       fmt::format("{}: cannot be written to: {}", folder.string(), std::generic_category().message(error)));
+}
+
+bool TemporaryFolder::is_alone() const {
+  return std::next(fs::directory_iterator(fs::path(aside_).parent_path())) == fs::directory_iterator();
 }
 
 TemporaryFolder::~TemporaryFolder() {

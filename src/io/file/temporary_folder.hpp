@@ -19,6 +19,8 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const SystemName& path() const noexcept { return aside_; }
+  /// Whether nothing else is in the folder that it was made in.
+  bool is_alone() const;
 
  private:
   friend void end_temporary_folders() noexcept;
