@@ -146,6 +146,9 @@ refuse("core/exponential.hpp has the same bits everywhere"
 refuse("libraries differ in what they draw and in the order of their parts"
        "_distribution<|std::(shuffle|sample|reduce|transform_reduce|hash)[(<]" ${computing})
 
+# The library of emscripten's compiler for the page and the npm package has no algorithms of ranges.
+refuse("clang 14's library lacks it" "std::ranges::[a-z]" ${computing})
+
 # What is answered is decided in answer/: shells ask it, and not the kernels below. Each exception with its reason.
 set(kernels "motion::(motion_map|limit_bands|contact_along|balance_along|contact_between|RangeOfMotion|ZoneFinder|DepthRange)"
             "measure::measure_(hip|bands)" "plan::(resect|place_total_hip|DesignLimits)" "contact::balance")

@@ -286,14 +286,15 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   results.record.joints = rows.size() - results.record.failures;
   results.record.key = key_of(results.record, results.columns, rows, results.record.inputs);
   results.texts = texts_of(*answers, columns);
-  StudyDone written{results.record.joints,
-                    results.record.failures,
-                    io::first_failure(results),
-                    false,
-                    io::write_study(folder, results, study.crate_date),
-                    io::noted_joints(results),
-                    static_cast<std::size_t>(std::ranges::count_if(
-                        kept.earlier(), [](const auto& earlier) { return earlier.has_value(); }))};
+  StudyDone written{
+      results.record.joints,
+      results.record.failures,
+      io::first_failure(results),
+      false,
+      io::write_study(folder, results, study.crate_date),
+      io::noted_joints(results),
+      static_cast<std::size_t>(std::count_if(kept.earlier().begin(), kept.earlier().end(),
+                                             [](const auto& earlier) { return earlier.has_value(); }))};
   kept.remove();
   return written;
 }
