@@ -210,7 +210,8 @@ npm: page-core-alone
 	@scripts/npm_package.sh build/npm build/page_core out/npm
 
 # Installed in an empty folder and run there, its limits and depths beside those of the native command.
-npm-test: npm
+npm-test: npm dependencies
+	@$(configure_all)
 	@cmake --build --preset release --target condyle_cli
 	@tests/npm/installed.sh build/release/condyle out/npm/condyle-*.tgz
 

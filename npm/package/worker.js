@@ -7,6 +7,7 @@ import { workerData } from "node:worker_threads";
 import { ZStream, zlibDeflate, zlibDeflateEnd, zlibDeflateInit2, zlibInflate, zlibInflateEnd, zlibInflateInit2, zlibInflateReset } from "pako";
 import condyle from "condyle-wasm";
 import { folders, state, written } from "./shared.js";
+import { nameFilesOf, outside, wordWithin } from "./windows.js";
 
 const { words, shared } = workerData;
 const at = state(shared), made = folders(shared);
@@ -62,20 +63,21 @@ condyle({
   node, print: (line) => writeSync(1, `${line}\n`), printErr: (line) => writeSync(2, `${line}\n`),
   preRun: [(module) => {
     Object.assign(module.ENV, process.env);
+    nameFilesOf(module.FS);
     module.FS.write = writtenAtLast(module.FS.write);
     const { mkdir, rmdir } = module.FS;
     module.FS.mkdir = (path, mode) => {
       const is = mkdir(path, mode);
-      made.add(path);
+      made.add(outside(path));
       return is;
     };
     module.FS.rmdir = (path) => {
       const is = rmdir(path);
-      made.delete(path);
+      made.delete(outside(path));
       return is;
     };
   }],
 }).then((module) => {
   for (const stream of [0, 1, 2]) module.FS.streams[stream].tty = terminals[stream];
-  module.callMain(words);
+  module.callMain(words.map(wordWithin));
 });

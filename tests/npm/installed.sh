@@ -74,6 +74,14 @@ printf 'solid\n' >broken.stl
 expect 3 inspect broken.stl
 echo "text" | "${run[@]}" rom /dev/stdin >/dev/null 2>errors.txt && fail "standard input is no joint" || true
 
+# Names as Windows gives them, of a drive too.
+windows() { node --require "$root/tests/npm/windows_names.cjs" node_modules/condyle/command.cjs "$@" >/dev/null 2>errors.txt || fail "on Windows $*: $(cat errors.txt)"; }
+drive="Z:${PWD//\//\\}\\"
+"$condyle" rom "Hüfte eins/hip.toml" --out native_rom >/dev/null 2>&1
+windows rom 'Hüfte eins\hip.toml' --out 'windows\rom'
+windows rom "${drive}Hüfte eins\\hip.toml" "--out=${drive}drive"
+for out in windows/rom drive; do diff <(grep -v '^#' native_rom/limits.csv) <(grep -v '^#' "$out/limits.csv") || fail "limits in $out differ"; done
+
 # Ctrl-C during long work ends it with 130, one line and nothing half-written.
 setsid "${run[@]}" rom "Hüfte eins/hip.toml" --map flexion=0:120:1 adduction=-30:20:1 --out interrupted >answer.txt 2>errors.txt &
 for _ in $(seq 60); do ! pgrep -s $! -x node >/dev/null || break; sleep 0.5; done
