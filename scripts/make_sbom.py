@@ -56,9 +56,11 @@ def headers_of(build: Path, folders: tuple[str, ...]) -> list[str]:
     for line in output_of("ninja", "-C", str(build), "-t", "deps").splitlines():
         if line and not line.startswith(" "):
             ours = line.startswith(folders)
-        elif ours and line.startswith("    /usr/"):
+        elif ours:
             headers.add(line.strip())
-    return sorted(headers)
+    # Another system's compiler sees those of this machine through links in the build folder: cmake/HeaderPackages.cmake.
+    real = {os.path.realpath(build / header) for header in headers if header}
+    return sorted(header for header in real if header.startswith("/usr/"))
 
 
 def archives_of(build: Path, programs: list[Path]) -> list[str]:

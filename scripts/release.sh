@@ -56,7 +56,7 @@ cd "$work/$name"
 cp build/static/condyle "$out/$name-linux-x86_64"
 cp out/image/*.tar out/npm/*.tgz "$out/"
 scripts/make_sbom.py build/static "$out/$name-linux-x86_64.spdx.json" condyle
-scripts/make_sbom.py build/npm "$out/$name-npm.spdx.json" condyle.wasm
+scripts/make_sbom.py build/npm "$out/$name-npm.spdx.json" condyle.js
 "$out/$name-linux-x86_64" --version | grep -qF "$version" || fail "the static command is of another version"
 mkdir "$work/node"
 (cd "$work/node" && npm install --silent --no-audit --no-fund "$out/$name.tgz" && npx --no-install condyle --version) | grep -qF "$version" ||
