@@ -376,6 +376,7 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
   for (const Propose& propose : joints) {
     std::string whose;
     fs::path folder;
+    const std::size_t answered_before = answered.size();
     try {
       Proposed proposed = propose();
       if (options.side && proposed.joint.side.value_or(*options.side) != *options.side) continue;
@@ -388,7 +389,10 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
     } catch (const std::exception& error) {
       // An unfit mesh has a page that says so; of a disk that is full, or of a plan that is refused, nothing stays.
       std::error_code ignored;
-      if (!folder.empty() && !dynamic_cast<const MeshError*>(&error)) fs::remove_all(folder, ignored);
+      if (!folder.empty() && !dynamic_cast<const MeshError*>(&error)) {
+        fs::remove_all(folder, ignored);
+        while (answered.size() > answered_before) answered.pop_back();
+      }
       if (refused) note(whose + io::failure_of_current_exception().message);
       if (!refused) refused = current_error_of(whose);
     }
