@@ -4,8 +4,11 @@ const onWindows = process.platform === "win32";
 const within = (path) => path.replaceAll("\\", "/").replace(/^[A-Za-z]:(?=\/|$)/, "/$&");
 export const outside = onWindows ? (path) => path.replace(/^\/([A-Za-z]:)(\/|$)/, "$1/") : (path) => path;
 
-/// A word of the command line: of an option with a value, the value.
-export const wordWithin = onWindows ? (word) => word.replace(/^(--[\w-]+=|)(.*)$/s, (_, option, value) => option + within(value)) : (word) => word;
+const text = "^--(case|date|note|title)", givenText = new RegExp(`${text}=`), beforeText = new RegExp(`${text}$`);
+
+/// A word of the command line; of an option with a value, its value. A text that is only printed stays.
+export const wordWithin = (word, i, words) => (!onWindows || givenText.test(word) || beforeText.test(words[i - 1]) ? word
+  : word.replace(/^(--[\w-]+=|)(.*)$/s, (_, option, value) => option + within(value)));
 
 /// Has emscripten's files take and give names as they are within.
 export function nameFilesOf(FS) {

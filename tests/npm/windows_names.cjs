@@ -1,4 +1,4 @@
-// Loaded before the command (NODE_OPTIONS=--require): files have the names that Windows gives them, on a drive Z that is the root here,
+// Loaded before the command (node --require): files have the names that Windows gives them, on a drive Z that is the root here,
 // and a name that Windows would not understand is none.
 const fs = require("node:fs");
 
