@@ -31,7 +31,7 @@ says installed/consumer_of_files "773 vertices"
 says installed/consumer_by_library "a file of OpenSim-JAM"
 
 # A version that is not this one is refused.
-sed 's/condyle 0\.1/condyle 0.99/' "$here/CMakeLists.txt" >CMakeLists.txt
+sed -E 's/\(condyle [0-9.]+/(condyle 0.99/' "$here/CMakeLists.txt" >CMakeLists.txt
 cp "$here"/*.cpp .
 if cmake -S . -B other_version -G Ninja -DCMAKE_PREFIX_PATH="$PWD/prefix" >/dev/null 2>&1; then fail "0.99 was found"; fi
 
