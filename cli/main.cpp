@@ -83,6 +83,12 @@ void keep_freed_memory() {
   std::_Exit(condyle::io::internal_error);
 }
 
+/// HDF5 ends the program itself, without a word, where some of its allocations fail.
+bool is_running = true;
+void say_that_a_library_ended_it() {
+  if (is_running) end_without_answer();
+}
+
 /// The commands below one, "hip, cartilages, cohort".
 std::vector<std::string> commands_of(const CLI::App& app) {
   std::vector<std::string> names;
@@ -267,14 +273,18 @@ int main(int argc, char** argv) {
   cli::hold_standard_streams();
   cli::say_when_interrupted();
   std::set_terminate(end_without_answer);
+  std::atexit(say_that_a_library_ended_it);
+  int exit_code = condyle::io::answered;
   try {
     // Nothing that the command reads is written over.
     const condyle::io::InputRecorder read(condyle::io::InputRecorder::Digests::left_out);
-    return run(cli::words_of_command_line(argc, argv));
+    exit_code = run(cli::words_of_command_line(argc, argv));
   } catch (const cli::Interrupted& stopped) {
     std::fprintf(stderr, "condyle: %s\n", stopped.what());
-    return condyle::io::interrupted;
+    exit_code = condyle::io::interrupted;
   } catch (...) {
-    return refuse_for_current_exception();
+    exit_code = refuse_for_current_exception();
   }
+  is_running = false;
+  return exit_code;
 }

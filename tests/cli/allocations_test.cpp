@@ -88,7 +88,7 @@ class FailingAllocations : public ::testing::TestWithParam<Failing> {
     std::ofstream(here / "sit.csv") << "name,motion,reach_deg\nsit,flexion,100\n";
   }
 
-  /// The command with "FIRST STEP LAST MODE" failing.
+  /// The command with "FIRST STEP LAST MODE" of the preload.
   std::vector<Outcome> outcomes(const std::string& which) const {
     const fs::path log = folder / "log";
     const std::string environment = fmt::format(
@@ -142,7 +142,7 @@ TEST_P(FailingAllocations, EndWithOneLineAndNothingTorn) {
   expect_all_or_nothing(none.front(), none.front().live);
   // The steps are prime to most periods of a program; all of them are some minutes.
   const bool is_long = std::getenv("CONDYLE_LONG_TESTS") != nullptr;
-  for (const auto& [mode, few] : {std::pair{"once", 90}, std::pair{"on", 30}}) {
+  for (const auto& [mode, few] : {std::pair{"once", 90}, {"on", 30}, {"end", 10}}) {
     const long runs = is_long_command() ? 20L * few : is_long ? asked : few;
     const long step = std::max(asked / runs, 1L) | 1;
     const auto all = outcomes(fmt::format("1 {} {} {}", step, 2 * asked, mode));

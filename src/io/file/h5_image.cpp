@@ -12,7 +12,7 @@ namespace condyle::io {
 namespace {
 
 void require(bool done) {
-  if (!done) throw FileError("HDF5 failed");
+  if (!done) throw std::bad_alloc();
 }
 
 /// HDF5 does not survive an allocation that fails: it frees twice and reads through null pointers. So the memory that it may need for
@@ -66,6 +66,8 @@ H5Handle text_type(std::size_t longest) {
 }  // namespace
 
 H5Silence::H5Silence() {
+  // At the end of a program it would close what is left open, which is nothing on a disk, and crash where an allocation has failed.
+  H5dont_atexit();
   require_memory(0);  // the first call makes what HDF5 has of its own
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

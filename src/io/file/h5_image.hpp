@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,12 +26,13 @@ class H5Silence {
   void* data_ = nullptr;
 };
 
-/// Something of HDF5's that has to be closed, unless a call of HDF5's has failed: it then frees twice what it closes.
+/// Something of HDF5's that has to be closed, unless a call of HDF5's has failed: it then frees twice what it closes. In memory nothing
+/// fails but for want of it.
 class H5Handle {
  public:
   H5Handle(hid_t id, herr_t (*close)(hid_t))
       : id_(id), close_(close), exceptions_(std::uncaught_exceptions()) {
-    if (id < 0) throw FileError("HDF5 failed");
+    if (id < 0) throw std::bad_alloc();
   }
   ~H5Handle() {
     if (std::uncaught_exceptions() == exceptions_) close_(id_);
@@ -46,8 +48,8 @@ class H5Handle {
 };
 
 /// An HDF5 file in memory, since one that fills the disk halfway must not keep the name. Without times of writing: two files
-/// of one answer are the same bytes. HDF5's library takes one thread at a time. Raises FileError, and std::bad_alloc before HDF5
-/// is asked for more than there is memory for.
+/// of one answer are the same bytes. HDF5's library takes one thread at a time. Raises std::bad_alloc, where it can before HDF5 is asked
+/// for more than there is memory for.
 class H5Image {
  public:
   H5Image();

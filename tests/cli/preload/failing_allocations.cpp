@@ -17,7 +17,8 @@
 /// the process themselves, or fail as a full disk does. Static initialisation is over when counting begins: before main()
 /// nothing could catch the failure, so no program can answer for it.
 ///
-///     CONDYLE_FAIL   "FIRST STEP LAST once" or "... on": which allocation fails, alone or with all after it; 0 is none
+///     CONDYLE_FAIL   "FIRST STEP LAST once" or "... on": which allocation fails, alone or with all after it; 0 is none. "... end": there the
+///                    program is ended, as HDF5 does
 ///     CONDYLE_RESET  a shell's command before each run
 ///     CONDYLE_CHECK  one after it, whose exit code is kept
 ///     CONDYLE_LOG    gets of each run a line "N STATUS ASKED LIVE CHECK": N, the exit code (or -signal), how many blocks were
@@ -31,13 +32,14 @@ namespace {
 std::atomic<bool> counting = false, has_failed = false;
 std::atomic<long> asked = 0, live = 0;
 long first_to_fail = 0;
-bool goes_on = false;
+bool goes_on = false, ends = false;
 
 bool fails() noexcept {
   if (!counting) return false;
   const long number = ++asked;
   if (first_to_fail == 0 || number < first_to_fail || (has_failed && !goes_on)) return false;
   has_failed = true;
+  if (ends) std::exit(EXIT_FAILURE);
   return true;
 }
 
@@ -166,7 +168,7 @@ int all_runs(int argc, char** argv, char** environment) {
   long first = 0, step = 1, last = 0;
   char mode[8] = {};
   if (std::sscanf(which, "%ld %ld %ld %7s", &first, &step, &last, mode) != 4) return 97;
-  goes_on = std::string(mode) == "on";
+  goes_on = std::string(mode) == "on", ends = std::string(mode) == "end";
   auto* seen = static_cast<Seen*>(
       ::mmap(nullptr, sizeof(Seen), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   std::FILE* lines = std::fopen(log, "w");
