@@ -22,7 +22,7 @@ constexpr std::size_t fewest_head_points = 60,
 /// Cosine of the angle from the neck's axis within which a cam may be: 60 degrees.
 constexpr double beside_neck = 0.5;
 /// Between the longest axis and the shortest.
-constexpr double largest_ratio = 1.09;
+constexpr double largest_ratio = 1.095;
 
 using Quadric = Eigen::Matrix<double, 9, 1>;
 using Normal = Eigen::Matrix<double, 9, 9>;

@@ -192,16 +192,25 @@ std::string fault_of(Kind kind, const Hip& hip, const io::LabelMap& map) {
   return text;
 }
 
-TEST(DegradedHips, AreRightRefusedOrNoted) {
+class DegradedHip : public testing::TestWithParam<std::pair<const char*, Kind>> {};
+
+TEST_P(DegradedHip, IsRightRefusedOrNoted) {
   const int draws = std::getenv("CONDYLE_LONG_TESTS") ? 60 : 2;
-  for (const Kind kind : {Kind::good, Kind::plate, Kind::triradiate, Kind::no_head, Kind::interpolated,
-                          Kind::slices, Kind::repeated, Kind::stretched, Kind::tilted})
-    for (int n = 0; n < draws; ++n) {
-      const Hip& hip = hips()[static_cast<std::size_t>(n) % hips().size()];
-      EXPECT_EQ(fault_of(kind, hip, drawn(kind, hip, Draw(n))), "")
-          << "kind " << static_cast<int>(kind) << ", draw " << n << " of " << hip.name;
-    }
+  const Kind kind = GetParam().second;
+  for (int n = 0; n < draws; ++n) {
+    const Hip& hip = hips()[static_cast<std::size_t>(n) % hips().size()];
+    EXPECT_EQ(fault_of(kind, hip, drawn(kind, hip, Draw(n))), "") << "draw " << n << " of " << hip.name;
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, DegradedHip,
+    testing::Values(std::pair{"good", Kind::good}, std::pair{"plate", Kind::plate},
+                    std::pair{"triradiate", Kind::triradiate}, std::pair{"no_head", Kind::no_head},
+                    std::pair{"interpolated", Kind::interpolated}, std::pair{"slices", Kind::slices},
+                    std::pair{"repeated", Kind::repeated}, std::pair{"stretched", Kind::stretched},
+                    std::pair{"tilted", Kind::tilted}),
+    [](const auto& kind) { return std::string(kind.param.first); });
 
 /// What a map leaves out is a note of the joint that is read from the proposal.
 TEST(DegradedHips, KeepTheirNotesInTheJointFile) {
