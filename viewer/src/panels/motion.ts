@@ -342,9 +342,9 @@ export class MotionPanel {
     this.goTo(angles);
   }
 
-  /// The pose before a gesture is remembered, once; null: by a press.
+  /// The pose before a gesture is remembered, once; null: by a press. A page that is busy gets late what was pressed in time.
   private remember(by: unknown): void {
-    const at = performance.now(), last = this.remembered, isNew = !last || by === null || by !== last.by || at - last.at > gesture_ms;
+    const at = window.event?.timeStamp ?? performance.now(), last = this.remembered, isNew = !last || by === null || by !== last.by || at - last.at > gesture_ms;
     this.remembered = { by, at };
     if (isNew) this.hooks.begins();
   }
