@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench bench-summary verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page-core-alone page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate mujoco-limits finite-elements growth
+  package package-test wheel page-core page-core-alone page page-answers page-reports page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test ro-crate mujoco-limits finite-elements growth
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -71,7 +71,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) static-test npm-test windows-test verify growth label-limits rotation-queries mujoco-limits finite-elements package clang sanitize sanitize-thread
+	@$(MAKE) static-test npm-test verify growth label-limits rotation-queries mujoco-limits finite-elements package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -230,19 +230,6 @@ finite-elements:
 	@cmake --build --preset release --target condyle_python
 	@mkdir -p out/finite_elements
 	@PYTHONPATH=build/release/python /usr/bin/python3 examples/python/finite_element_contact.py out/finite_elements || [ $$? -eq 77 ]
-
-# The command for Windows on x86-64, compiled here by mingw-w64: build/windows/condyle.exe.
-windows: command_dependencies
-	@scripts/install_dependencies.sh command windows
-	@cmake -S windows -B build/windows -G Ninja >/dev/null
-	@cmake --build build/windows
-
-# Run by Wine beside the native command, and its suites of tests.
-windows-test: windows dependencies
-	@cmake --build build/windows --target windows_tests
-	@$(configure_all)
-	@cmake --build --preset release --target condyle_cli
-	@ctest --preset release -R '^windows_' --no-tests=error
 
 # The npm package ro-crate (1.7 MB), by which the test ro_crate reads what --crate writes: without it that test is skipped.
 ro-crate:

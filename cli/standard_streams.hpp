@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-/// What a process has from its system when it starts: standard_streams.cpp on POSIX, windows/src/standard_streams.cpp on Windows.
+/// What a process has from its system when it starts.
 
 namespace condyle::cli {
 

@@ -11,7 +11,6 @@
 #   install_dependencies.sh package-test   and for make package-test
 #   install_dependencies.sh wheel     for make wheel; with docs, for make release
 #   install_dependencies.sh image     and for the test of make image, which unpacks it by umoci too
-#   install_dependencies.sh windows   and for make windows, and its test, which runs it by Wine
 #   install_dependencies.sh finite-elements   and for make finite-elements
 #   install_dependencies.sh snakemake and for the test of workflow/ without Slurm
 #   install_dependencies.sh workflow  and for all of it
@@ -59,17 +58,13 @@ for group in "$@"; do
     package-test) packages+=(debootstrap) ;;
     wheel) packages+=(patchelf python3-pip python3-venv python3-wheel) ;;
     image) packages+=(umoci) ;;
-    windows)
-      packages+=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev)
-      packages+=(wine wine64 googletest)
-      ;;
     finite-elements) packages+=(python3-getfem) ;;
     workflow)
       packages+=(slurmctld slurmd slurm-client munge)
       ;&
     snakemake) packages+=(snakemake) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, emscripten, page, package-test, wheel, image, windows, finite-elements, snakemake, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, emscripten, page, package-test, wheel, image, finite-elements, snakemake, workflow" >&2
       exit 2
       ;;
   esac

@@ -10,7 +10,7 @@
 namespace condyle::io {
 
 std::string deflated(std::string_view bytes) {
-  // A whole stream is counted in a type that has 32 bits on Windows.
+  // A whole stream is counted in a type of zlib, which need not have 64 bits.
   if (!std::in_range<uLong>(bytes.size())) throw std::bad_alloc();
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// What each system calls in its own way to look at, read and write files: file_calls.cpp for POSIX, windows/src/file_calls.cpp for
-/// Windows. An `int` that is returned is 0 or an error of <cerrno>, whose text is one of std::generic_category(). Nothing is recorded:
+/// What POSIX calls to look at, read and write files. An `int` that is returned is 0 or an error of <cerrno>, whose text is one of std::generic_category(). Nothing is recorded:
 /// readers use input_file.hpp.
 
 namespace condyle::io {

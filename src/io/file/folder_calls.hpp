@@ -2,9 +2,8 @@
 
 #include <filesystem>
 
-/// What each system calls in its own way to make and remove the folders of temporary_folder.hpp: folder_calls.cpp for POSIX,
-/// windows/src/folder_calls.cpp for Windows. An `int` that is returned is 0 or an error of <cerrno>. What removes or waits may be called
-/// by whatever ends a command that is interrupted: on POSIX a signal handler, which may take no memory.
+/// What POSIX calls to make and remove the folders of temporary_folder.hpp. An `int` that is returned is 0 or an error of <cerrno>. What
+/// removes or waits may be called by the signal handler that ends a command, which may take no memory.
 
 namespace condyle::io {
 
