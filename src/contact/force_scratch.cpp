@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/symmetric.hpp"
+
 namespace condyle::contact {
 
 void VertexLoads::clear(std::size_t vertices) {
@@ -29,7 +31,7 @@ void VertexLoads::spread_couple(const Points& vertices) {
     const Vec3 arm = vertices[v] - middle;
     inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
   }
-  const Vec3 turn = inertia.completeOrthogonalDecomposition().solve(couple_);
+  const Vec3 turn = core::shortest_solved(inertia, couple_);
   for (const Index v : loaded_) force_[v] += turn.cross(Vec3(vertices[v] - middle));
 }
 

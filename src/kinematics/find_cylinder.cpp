@@ -1,4 +1,3 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
+#include "core/symmetric.hpp"
 #include "kinematics/axis_bounds.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/surface_pieces.hpp"
@@ -166,8 +166,7 @@ double score(const std::vector<kinematics::SurfacePoint>& points, const std::vec
     low = std::min(low, height), high = std::max(high, height);
   }
   // The eigenvalue of the axis itself is 0; the next is the smaller of the two across it.
-  const Vec3 spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(rays / area, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vec3 spread = core::axes_of(rays / area).values;
   if (spread[1] < smallest_spread || high - low < smallest_length * c.radius) return 0;
   return strict.in_radii ? area / (c.radius * c.radius) : area;
 }

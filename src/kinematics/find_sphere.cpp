@@ -1,4 +1,3 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,6 +14,7 @@
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
 #include "core/parallel.hpp"
+#include "core/symmetric.hpp"
 #include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/edge_balance.hpp"
@@ -276,7 +276,7 @@ std::optional<Sphere> roughly_fitted(const Points& places, const std::vector<Ind
     Eigen::Matrix3d A;
     A << xx, xy, zx, xy, yy, yz, zx, yz, zz;
     A -= u * u.transpose() / count;
-    const Vec3 move = A.ldlt().solve(Vec3(bx, by, bz) - lengths / count * u);
+    const Vec3 move = core::solved(A, Vec3(bx, by, bz) - lengths / count * u);
     sphere.radius = lengths / count - move.dot(u) / count;
     sphere.centre += move;
     if (!(move.norm() < sphere.radius)) return std::nullopt;
@@ -303,10 +303,8 @@ BallPart measured(const std::vector<kinematics::SurfacePoint>& points, const std
     support += points[i].area * (std::abs(points[i].normal.dot(u)) - smallest_ball_cosine) /
                (1 - smallest_ball_cosine);
   }
-  const Vec3 spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(rays, Eigen::EigenvaluesOnly).eigenvalues();
   const double coverage = area / area_of(fit.sphere);
-  return {{std::move(fit), coverage}, spread[0], support};
+  return {{std::move(fit), coverage}, core::axes_of(rays).values[0], support};
 }
 
 bool are_stairs(const std::vector<SurfacePoint>& points) noexcept {

@@ -1,6 +1,5 @@
 #include "condyle/fit.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "core/ordered_sums.hpp"
 #include "core/predicates.hpp"
+#include "core/symmetric.hpp"
 
 namespace condyle {
 namespace {
@@ -63,7 +63,7 @@ Vec3 algebraic_centre(PointsView points, std::span<const Index> vertices, const 
     const Vec3 p = points[v] - mean;
     b += core::ordered_dot(p, p) * p;
   }
-  return mean + C.ldlt().solve(b) / (2 * static_cast<double>(vertices.size()));
+  return mean + core::solved(C, b) / (2 * static_cast<double>(vertices.size()));
 }
 
 struct Step {
@@ -113,7 +113,7 @@ class Rays {
       A.add(x, y, z);
       bx += off * x, by += off * y, bz += off * z;
     }
-    return {A.matrix().ldlt().solve(Vec3(bx, by, bz)), squares};
+    return {core::solved(A.matrix(), Vec3(bx, by, bz)), squares};
   }
 
   double sum_of_squares() const noexcept {
@@ -158,7 +158,7 @@ SphereFit fit_sphere(PointsView points, std::span<const Index> vertices) {
     throw MeshError("a sphere needs at least 4 vertices, not " + std::to_string(vertices.size()));
   const Vec3 mean = mean_of(points, vertices);
   const Mat3 C = covariance(points, vertices, mean);
-  const Vec3 variances = Eigen::SelfAdjointEigenSolver<Mat3>(C, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vec3 variances = core::axes_of(C).values;
   if (!(variances[0] > flat * variances[2]))
     throw MeshError("the vertices lie in one plane: no sphere fits them");
 

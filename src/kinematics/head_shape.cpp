@@ -1,12 +1,13 @@
 #include "kinematics/head_shape.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
+#include "core/symmetric.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/surface_points.hpp"
 
@@ -94,11 +95,11 @@ std::optional<HeadShape> head_shape(const TriMesh& mesh, const Sphere& head) {
   const Quadric q = trimmed_quadric(std::move(points));
   Eigen::Matrix3d A;
   A << q[0], q[3], q[4], q[3], q[1], q[5], q[4], q[5], q[2];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(A);
-  if (!(axes.eigenvalues()[0] > 0)) return std::nullopt;
+  const auto [values, directions] = core::axes_of(A);
+  if (!(values[0] > 0)) return std::nullopt;
   // Largest eigenvalue last: the shortest axis.
-  const Vec3 lengths = (axes.eigenvalues()[2] / axes.eigenvalues().array()).sqrt();
-  return HeadShape{lengths.reverse(), axes.eigenvectors().rowwise().reverse()};
+  const Vec3 lengths = (values[2] / values.array()).sqrt();
+  return HeadShape{lengths.reverse(), directions.rowwise().reverse()};
 }
 
 std::optional<JointNote> head_shape_note(const Joint& joint, const Sphere& head) {

@@ -1,12 +1,12 @@
 #include "kinematics/long_bone_checks.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/knee_checks.hpp"
@@ -70,10 +70,9 @@ std::optional<Bone> bone_of(const TriMesh& mesh) {
     spread += 0.75 * size * mean * mean.transpose();
   }
   if (!(spread.trace() > 0)) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(spread);
-  const Vec3 moments = solved.eigenvalues();
+  const auto [moments, axes] = core::axes_of(spread);
   const bool is_shaft = moments[2] > least_slenderness * least_slenderness * std::max(moments[1], 0.0);
-  const Vec3 axis = solved.eigenvectors().col(2);
+  const Vec3 axis = axes.col(2);
   return Bone{middle, is_shaft, axis.dot(middle) < 0 ? Vec3(-axis) : axis};
 }
 

@@ -1,11 +1,11 @@
 #include "kinematics/shaft_line.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/corners.hpp"
 
@@ -81,12 +81,12 @@ ShaftLine line_through(const Slices& slices, const Vec3& direction) {
   for (const Vec3& c : slices.centroids) mean += c / n;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Vec3& c : slices.centroids) spread += (c - mean) * (c - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(spread);
-  Vec3 along = solved.eigenvectors().col(2);
+  const auto [squares, axes] = core::axes_of(spread);
+  Vec3 along = axes.col(2);
   if (along.dot(direction) < 0) along = -along;
   // Least squares: the variance of the slope is that of the residuals over the sum of squared abscissae.
-  const double residual = std::max(0.0, solved.eigenvalues()[1]) / std::max(1.0, n - 2);
-  const double slope = std::sqrt(residual / solved.eigenvalues()[2]);
+  const double residual = std::max(0.0, squares[1]) / std::max(1.0, n - 2);
+  const double slope = std::sqrt(residual / squares[2]);
   return {mean,        along,        slices.first,
           slices.last, slices.reach, 2 * core::arctangent(slope, 1) * 180 / std::numbers::pi};
 }

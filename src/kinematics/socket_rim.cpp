@@ -1,12 +1,12 @@
 #include "kinematics/socket_rim.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 #include "mesh/vertex_normals.hpp"
 
@@ -88,7 +88,7 @@ Plane plane_through(const std::vector<Vec3>& points, const Vec3& side) {
   for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
-  Vec3 normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  Vec3 normal = core::axes_of(spread).directions.col(0);
   if (normal.dot(side) < 0) normal = -normal;
   return {mean, normal};
 }

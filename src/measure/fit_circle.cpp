@@ -1,11 +1,11 @@
 #include "measure/fit_circle.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "condyle/angle.hpp"
+#include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 
 namespace condyle::measure {
@@ -88,7 +88,7 @@ std::optional<double> take_step(const std::vector<Weighted>& points, Circle& cir
     const Vec3 row(ray.x() / distance, ray.y() / distance, 1);
     A += w * row * row.transpose(), b += w * (distance - circle.radius) * row;
   }
-  const Vec3 change = A.ldlt().solve(b);
+  const Vec3 change = core::solved(A, b);
   circle.centre += change.head<2>(), circle.radius += change.z();
   if (!circle.centre.allFinite() || !(circle.radius > 0)) return std::nullopt;
   return change.norm();

@@ -1,10 +1,10 @@
 #include "measure/rim.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "core/formatted.hpp"
+#include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/surface_points.hpp"
 #include "measure/degree.hpp"
@@ -86,7 +86,7 @@ Plane plane_through(const std::vector<Vec3>& points, const std::vector<double>& 
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i)
     spread += weights[i] * (points[i] - mean) * (points[i] - mean).transpose();
-  Vec3 normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  Vec3 normal = core::axes_of(spread).directions.col(0);
   if (normal.dot(side) < 0) normal = -normal;
   return {mean, normal};
 }

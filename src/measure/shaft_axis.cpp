@@ -1,11 +1,11 @@
 #include "measure/shaft_axis.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/formatted.hpp"
+#include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/corners.hpp"
 #include "kinematics/hip_anatomy.hpp"
@@ -136,12 +136,12 @@ ShaftAxis line_through(const std::vector<Vec3>& points, const std::vector<double
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i)
     spread += weights[i] * (points[i] - mean) * (points[i] - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(spread);
-  Vec3 along = solved.eigenvectors().col(2);
+  const auto [squares, axes] = core::axes_of(spread);
+  Vec3 along = axes.col(2);
   if (along.dot(direction) < 0) along = -along;
   // Least squares: the variance of the slope is that of the residuals over the sum of squared abscissae.
-  const double residual = std::max(0.0, solved.eigenvalues()[1]) / std::max(1.0, n - 2);
-  return {mean, along, 0, 0, 2 * core::arctangent(std::sqrt(residual / solved.eigenvalues()[2]), 1) / degree};
+  const double residual = std::max(0.0, squares[1]) / std::max(1.0, n - 2);
+  return {mean, along, 0, 0, 2 * core::arctangent(std::sqrt(residual / squares[2]), 1) / degree};
 }
 
 double distance(const ShaftAxis& line, const Vec3& p) {

@@ -1,10 +1,10 @@
 #include "plan/grown.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 
 namespace condyle::plan {
@@ -39,11 +39,11 @@ Mesh grown(const Mesh& mesh, double by_mm) {
   }
   std::vector<Vec3> tips(count, Vec3::Zero());
   for (std::size_t v = 0; v < count; ++v) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares[v]);
+    const auto [values, axes] = core::axes_of(squares[v]);
     for (int k = 0; k < 3; ++k)
-      if (axes.eigenvalues()[k] > flat_share * axes.eigenvalues()[2]) {
-        const Vec3 axis = axes.eigenvectors().col(k);
-        tips[v] += axis.dot(sums[v]) / axes.eigenvalues()[k] * axis;
+      if (values[k] > flat_share * values[2]) {
+        const Vec3 axis = axes.col(k);
+        tips[v] += axis.dot(sums[v]) / values[k] * axis;
       }
   }
   std::vector<double> least(count, 1);  // that a plane moves by
