@@ -181,6 +181,7 @@ TEST_P(BrokenOff, WithoutRoomForItsFilesLeavesTheEarlierOnesAndSaysSoInOneLine) 
   EXPECT_EQ(end_of(child), 3);
   const std::string said = io::read_whole_file(err());
   EXPECT_TRUE(says(said, "cannot be written: File too large\n"));
+  EXPECT_TRUE(says(said, "condyle: result/") && !says(said, ".condyle-")) << said;
   EXPECT_EQ(files_in(here() / "result"), old_);
 }
 

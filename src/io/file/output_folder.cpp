@@ -62,7 +62,7 @@ void check_are_of_no_other_answer(const std::vector<fs::path>& there,
 /// Whether a run was killed here while its files got their names: its folder aside is left.
 bool has_aside(const fs::path& folder) {
   return !files_of_command(folder, [](std::string_view name) {
-            return name.starts_with(".condyle-");
+            return name.starts_with(aside_prefix);
           }).empty();
 }
 

@@ -48,7 +48,7 @@ std::vector<fs::path> missing_folders(const fs::path& folder) {
 }  // namespace
 
 TemporaryFolder::TemporaryFolder(const fs::path& folder)
-    : created_(missing_folders(folder)), aside_((folder / ".condyle-XXXXXX").native()) {
+    : created_(missing_folders(folder)), aside_((folder / (std::string(aside_prefix) + "XXXXXX")).native()) {
   int error = 0;
   {
     const ListHeld held;

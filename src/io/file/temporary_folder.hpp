@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "io/file/folder_calls.hpp"
 
 namespace condyle::io {
+
+/// Hidden folders and files in a folder of results begin so.
+inline constexpr std::string_view aside_prefix = ".condyle-";
 
 /// A hidden folder in the folder that results go to, with those that had to be made for it. The hidden one is removed with its
 /// files when this goes out of scope, and what was made around it where nothing came into it; so they are by

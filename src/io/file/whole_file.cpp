@@ -12,6 +12,7 @@
 #include "condyle/error.hpp"
 #include "io/file/file_calls.hpp"
 #include "io/file/replaced_files.hpp"
+#include "io/file/temporary_folder.hpp"
 
 namespace condyle::io {
 namespace {
@@ -45,8 +46,12 @@ std::filesystem::path end_of_links(const std::filesystem::path& path) {
 
 namespace {
 
+/// Names a file as it was asked for: those of a folder of results are written aside.
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, const std::string& why) {
-  throw FileError(fmt::format("{}: cannot be written: {}", path.string(), why));
+  std::filesystem::path asked;
+  for (const std::filesystem::path& part : path)
+    if (!part.native().starts_with(aside_prefix)) asked /= part;
+  throw FileError(fmt::format("{}: cannot be written: {}", asked.string(), why));
 }
 
 /// All bytes, and the file closed; 0, or why not.
