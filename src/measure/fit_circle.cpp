@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "condyle/angle.hpp"
+#include "condyle/fit.hpp"
 #include "core/symmetric.hpp"
 #include "core/trigonometry.hpp"
 
