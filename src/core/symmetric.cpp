@@ -15,7 +15,8 @@ Vec3 solved(const Eigen::Matrix3d& A, const Vec3& b) {
 }
 
 Vec3 shortest_solved(const Eigen::Matrix3d& A, const Vec3& b) {
-  constexpr double rounding = 1e-14;  // of the largest eigenvalue
+  // Of the largest eigenvalue: what a sum of some 90 products, of arms in one line, may round to.
+  constexpr double rounding = 1e-14;
   const auto [values, directions] = axes_of(A);
   Vec3 x = Vec3::Zero();
   for (int i = 0; i < 3; ++i)

@@ -17,7 +17,7 @@ struct HeadShape {
 /// cams up to an alpha angle of 80 degrees nothing is left. Empty where they are no ellipsoid's. Linear in the mesh.
 std::optional<HeadShape> head_shape(const TriMesh& mesh, const Sphere& head);
 
-/// Says of a human hip that its head is longer one way than across. The axes of two real heads differ by 3 and 7 %. They differ by 10 % and more
+/// Says of a human hip that its head is longer one way than across. The axes of two real heads differ by 3 and 7 %. They differ by 9.5 % and more
 /// where slices lost a tenth of their spacing, and by 13 % and more where a gantry's tilt of 10 degrees shears them: a sphere fits such heads too, and limits
 /// are off by tens of degrees.
 std::optional<JointNote> head_shape_note(const Joint& joint, const Sphere& head);

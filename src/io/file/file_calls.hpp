@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// What POSIX calls to look at, read and write files. An `int` that is returned is 0 or an error of <cerrno>, whose text is one of std::generic_category(). Nothing is recorded:
-/// readers use input_file.hpp.
+/// What POSIX calls to look at, read and write files. An `int` that is returned is 0 or an error of <cerrno>, whose text is one of
+/// std::generic_category(). Nothing is recorded: readers use input_file.hpp.
 
 namespace condyle::io {
 

@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "condyle/error.hpp"
-
 namespace condyle::io {
 
 /// HDF5 prints its errors unless this suppresses them.
