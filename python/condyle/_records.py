@@ -447,7 +447,7 @@ class TouchDepth(Record):
 
     Attributes
     ----------
-    body : str
+    body : Literal["fixed", "mobile"]
         whose surface it is on: `"fixed"` or `"mobile"`
     depth_mm : float
         its distance from the other body's surface, along that surface's normal where a face is nearest
@@ -465,7 +465,7 @@ class TouchDepth(Record):
         of the other body that has the exit
     """
 
-    body: str
+    body: Literal["fixed", "mobile"]
     depth_mm: float
     error_mm: float
     place_mm: NDArray[np.float64]
@@ -502,7 +502,7 @@ class TouchRecord(Record):
         the surfaces meet, or one body is inside the other
     intersecting_pairs : int
         pairs of triangles that meet; touching counts
-    inside : str or None
+    inside : Literal["fixed", "mobile"] or None
         the body that is wholly inside the other, without their surfaces meeting: `"fixed"`, `"mobile"` or null
     nearest_distance_mm : float or None
         between the surfaces; null where they meet, and a distance too if one body is inside the other
@@ -542,7 +542,7 @@ class TouchRecord(Record):
 
     in_contact: bool
     intersecting_pairs: int
-    inside: Optional[str] = None
+    inside: Optional[Literal["fixed", "mobile"]] = None
     nearest_distance_mm: Optional[float] = None
     nearest_fixed_mm: Optional[NDArray[np.float64]] = None
     nearest_mobile_mm: Optional[NDArray[np.float64]] = None

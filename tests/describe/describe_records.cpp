@@ -8,7 +8,7 @@
 
 #include "answer/records/limit_record.hpp"
 #include "answer/records/measure_record.hpp"
-#include "answer/records/touch_record.hpp"
+#include "answer/records/touch_table.hpp"
 #include "condyle/error.hpp"
 #include "condyle/joint_checks.hpp"
 #include "io/file/whole_file.hpp"
@@ -74,7 +74,7 @@ std::string hint_of() {
     return "bool";
   else if constexpr (std::is_integral_v<Value>)
     return "int";
-  else if constexpr (std::same_as<Value, GivenDegrees> || std::is_floating_point_v<Value>)
+  else if constexpr (io::cells::is_angle<Value> || std::is_floating_point_v<Value>)
     return "float";
   else
     return "str";
@@ -108,26 +108,26 @@ std::string each_record(const Of& of) {
     return (std::string() + ... + of.template operator()<Records>());
   };
   return all(std::type_identity<FeatureRecord>(), std::type_identity<FeaturesRecord>(),
-             std::type_identity<PartsRecord>(), std::type_identity<AllowedDepthRecord>(),
-             std::type_identity<ClosedFormRecord>(), std::type_identity<BandWidthRecord>(),
+             std::type_identity<PartsRecord>(), std::type_identity<motion::DepthLimit>(),
+             std::type_identity<plan::ClosedLimit>(), std::type_identity<BandWidthRecord>(),
              std::type_identity<BandRecord>(), std::type_identity<BoneReferenceRecord>(),
-             std::type_identity<SoftTissueGapRecord>(), std::type_identity<PeopleRangeRecord>(),
-             std::type_identity<LivingRecord>(), std::type_identity<CaveatRecord>(),
+             std::type_identity<SoftTissueGap>(), std::type_identity<PeopleRange>(),
+             std::type_identity<LivingLimit>(), std::type_identity<MotionCaveat>(),
              std::type_identity<FixedZoneRecord>(), std::type_identity<MobileZoneRecord>(),
              std::type_identity<ZoneRecord>(), std::type_identity<LimitRecord>(),
-             std::type_identity<NormalRangeRecord>(), std::type_identity<MeasureBandRecord>(),
-             std::type_identity<MeasureRecord>(), std::type_identity<NeckHourRecord>(),
-             std::type_identity<RimHourRecord>(), std::type_identity<ShapeRecord>());
+             std::type_identity<NormalRangeRecord>(), std::type_identity<measure::MeasureBand>(),
+             std::type_identity<MeasureRecord>(), std::type_identity<measure::NeckHour>(),
+             std::type_identity<measure::RimHour>(), std::type_identity<ShapeRecord>());
 }
 
 /// The same of two meshes without a joint, of which the page has none.
 template <class Of>
 std::string each_touch_record(const Of& of) {
-  return of.template operator()<NoteRecord>() + of.template operator()<TouchDepthRecord>() +
-         of.template operator()<FreeTranslationRecord>() + of.template operator()<TouchRecord>() +
-         of.template operator()<TurnEndRecord>() + of.template operator()<TurnIntervalRecord>() +
-         of.template operator()<TurnRecord>() + of.template operator()<SlideEndRecord>() +
-         of.template operator()<SlideIntervalRecord>() + of.template operator()<SlideRecord>();
+  return of.template operator()<JointNote>() + of.template operator()<TouchDepth>() +
+         of.template operator()<FreeTranslation>() + of.template operator()<TouchAnswer>() +
+         of.template operator()<motion::Limit>() + of.template operator()<motion::FreeInterval>() +
+         of.template operator()<TurnAnswer>() + of.template operator()<motion::SlideEnd>() +
+         of.template operator()<motion::FreeSlide>() + of.template operator()<SlideAnswer>();
 }
 
 template <class Record>
@@ -135,7 +135,7 @@ std::string python_class() {
   std::string meanings, members;
   for_each_field<Record>([&]<class Field>(const Field& field) {
     if (*field.key == 0) return;
-    using Value = std::remove_cvref_t<decltype(std::declval<Record>().*std::get<0>(field.path))>;
+    using Value = ValueOf<Record, std::remove_cvref_t<decltype(field)>>;
     const std::string hint = hint_of<Value>();
     members += is_optional<Value> ? fmt::format("    {}: Optional[{}] = None\n", field.key, hint)
                                   : fmt::format("    {}: {}\n", field.key, hint);
@@ -224,7 +224,7 @@ std::string page_type() {
   std::vector<std::string> checks;
   for_each_field<Record>([&](const auto& field) {
     if (*field.key == 0) return;
-    using Value = std::remove_cvref_t<decltype(std::declval<Record>().*std::get<0>(field.path))>;
+    using Value = ValueOf<Record, std::remove_cvref_t<decltype(field)>>;
     std::string check = check_of<Value>();
     if (can_be_null<Value>(field.if_empty)) check = "orNull(" + check + ")";
     if (field.if_empty == IfEmpty::left_out) check = "ifThere(" + check + ")";
@@ -295,17 +295,16 @@ std::string measures_page(std::string page) {
 }
 
 std::string touch_page(std::string page) {
-  page = with_table(std::move(page), "| key of `touch.json` | value |\n|---|---|\n", key_rows<TouchRecord>());
-  page =
-      with_table(std::move(page), "| key of `deepest` | value |\n|---|---|\n", key_rows<TouchDepthRecord>());
+  page = with_table(std::move(page), "| key of `touch.json` | value |\n|---|---|\n", key_rows<TouchAnswer>());
+  page = with_table(std::move(page), "| key of `deepest` | value |\n|---|---|\n", key_rows<TouchDepth>());
   page = with_table(std::move(page), "| key of one of `free` | value |\n|---|---|\n",
-                    key_rows<FreeTranslationRecord>());
-  page = with_table(std::move(page), "| key of a turn | value |\n|---|---|\n", key_rows<TurnRecord>());
-  page = with_table(std::move(page), "| key of a slide | value |\n|---|---|\n", key_rows<SlideRecord>());
+                    key_rows<FreeTranslation>());
+  page = with_table(std::move(page), "| key of a turn | value |\n|---|---|\n", key_rows<TurnAnswer>());
+  page = with_table(std::move(page), "| key of a slide | value |\n|---|---|\n", key_rows<SlideAnswer>());
   page = with_table(std::move(page), "| key of an end of a turn | value |\n|---|---|\n",
-                    key_rows<TurnEndRecord>());
+                    key_rows<motion::Limit>());
   return with_table(std::move(page), "| key of an end of a slide | value |\n|---|---|\n",
-                    key_rows<SlideEndRecord>());
+                    key_rows<motion::SlideEnd>());
 }
 
 int described(const std::filesystem::path& root, bool only_check) {

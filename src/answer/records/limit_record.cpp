@@ -51,15 +51,6 @@ ZoneRecord zone_record(const motion::ImpingementZone& zone) {
           .mobile = {zone_of_body<PointM>(zone.mobile), degrees_of(zone.zone_neck_angle)}};
 }
 
-LivingRecord living_record(const LivingLimit& living) {
-  LivingRecord record{degrees_of(living.expected), degrees_of(living.expected_sd), {}, {}, text_of(living)};
-  if (const auto& gap = living.gap)
-    record.gap = {gap->closeness, {gap->mean}, {gap->sd}, gap->hips, gap->source};
-  if (const auto& people = living.people)
-    record.people = {{people->low}, {people->high}, people->who, people->people, people->source};
-  return record;
-}
-
 BandRecord band_record(const motion::LimitBand& band, const motion::Motion& motion, const Joint& joint) {
   const auto& [centre, axes, surface, parameters] = band.width_from;
   return {
@@ -81,13 +72,18 @@ std::string text_of(const FeatureRecord& feature) {
                           : core::formatted("%s %u", kind.data(), *feature.id);
 }
 
-FeatureRecord feature_record(const motion::Feature& feature, const Body& body) {
-  FeatureRecord record{.kind = feature.kind, .id = {}, .vertices = {}, .part = part_name(body, feature)};
+FeatureRecord feature_record(const motion::Feature& feature, const Body* body) {
+  FeatureRecord record{.kind = feature.kind, .id = {}, .vertices = {}, .part = {}};
+  if (body) record.part = part_name(*body, feature);
   if (feature.kind == motion::FeatureKind::edge)
     record.vertices = {feature.id, feature.other_end};
   else
     record.id = feature.id;
   return record;
+}
+
+FeaturesRecord features_of(const motion::ContactWitness& contact) {
+  return {feature_record(contact.fixed_feature), feature_record(contact.mobile_feature)};
 }
 
 LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
@@ -138,28 +134,18 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
   if (const auto bone = bone_reference(joint, limit))
     record.bone_reference = {{bone->healthy},   {bone->cam_without_complaints}, {bone->patients},
                              bone->people_each, is_short(*bone, limit),         bone->source};
-  if (const auto living = living_limit(answer, i)) record.living = living_record(*living);
+  record.living = living_limit(answer, i);
   if (is_as_defined_here(motion)) record.definition = "as defined here; no angles are agreed on";
   if (answer.follows) record.translation_ends = limit.translation_ends;
   if (const auto& contact = end.contact) {
     record.contact_point_mm = {contact->fixed_point};
     record.contact_point_mobile_mm = {contact->mobile_point};
-    record.features = {feature_record(contact->fixed_feature, joint.fixed),
-                       feature_record(contact->mobile_feature, joint.mobile)};
+    record.features = {feature_record(contact->fixed_feature, &joint.fixed),
+                       feature_record(contact->mobile_feature, &joint.mobile)};
   }
-  for (const auto& [code, summary, text, source] : motion_caveats(joint, motion))
-    record.caveats.push_back({code, text, source.empty() ? std::nullopt : std::optional(source)});
-  if (!answer.depths.empty()) {
-    const motion::DepthLimit& depth = answer.depths[i];
-    record.depth = {depth.start_depth_mm, depth.at_limit.depth_mm, depth.at_limit.ray_to_normal.degrees(),
-                    depth.depth_grows};
-  }
-  if (!answer.closed.empty()) {
-    const plan::ClosedLimit& closed = answer.closed[i];
-    record.closed_form = {closed.turned.degrees(),
-                          closed.reason,
-                          {closed.of_facets_low.degrees(), closed.of_facets_high.degrees()}};
-  }
+  record.caveats = motion_caveats(joint, motion);
+  if (!answer.depths.empty()) record.depth = answer.depths[i];
+  if (!answer.closed.empty()) record.closed_form = answer.closed[i];
   if (!answer.zones.empty()) {
     const auto& zone = answer.zones[i];
     record.zone = zone ? std::optional(zone_record(*zone)) : std::nullopt;

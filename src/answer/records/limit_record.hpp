@@ -19,22 +19,15 @@ struct FeatureRecord {
 };
 /// "vertex 12", "edge 3-7", "face 40".
 std::string text_of(const FeatureRecord& feature);
-FeatureRecord feature_record(const motion::Feature& feature, const Body& body);
+/// With the name of its mesh, if a body of several is given.
+FeatureRecord feature_record(const motion::Feature& feature, const Body* body = nullptr);
 
 struct FeaturesRecord {
   FeatureRecord fixed, mobile;
 };
+FeaturesRecord features_of(const motion::ContactWitness& contact);
 struct PartsRecord {
   std::optional<std::string> fixed, mobile;
-};
-struct AllowedDepthRecord {
-  double at_start_mm, at_limit_mm, ray_to_normal_deg;
-  bool grows;
-};
-struct ClosedFormRecord {
-  double limit_deg;
-  motion::LimitReason reason;
-  std::array<double, 2> of_facets_deg;
 };
 struct BandWidthRecord {
   double centre_deg, axes_deg, surface_deg;
@@ -51,29 +44,6 @@ struct BoneReferenceRecord {
   int people_each;
   bool is_short;
   std::string_view source;
-};
-struct SoftTissueGapRecord {
-  Closeness closeness;
-  GivenDegrees mean_deg, sd_deg;
-  int hips;
-  std::string_view source;
-};
-struct PeopleRangeRecord {
-  GivenDegrees low_deg, high_deg;
-  std::string_view who;
-  std::optional<int> people;
-  std::string_view source;
-};
-struct LivingRecord {
-  std::optional<double> expected_deg, expected_sd_deg;
-  std::optional<SoftTissueGapRecord> gap;
-  std::optional<PeopleRangeRecord> people;
-  std::string text;
-};
-struct CaveatRecord {
-  MotionCaveatCode code;
-  std::string_view text;
-  std::optional<std::string_view> source;
 };
 
 /// What a zone has on either body.
@@ -127,11 +97,11 @@ struct LimitRecord {
   std::optional<double> clock_hour = {};
   std::optional<GivenDegrees> normal_range_deg = {};
   std::optional<BoneReferenceRecord> bone_reference = {};
-  std::optional<LivingRecord> living = {};
-  std::vector<CaveatRecord> caveats = {};
+  std::optional<LivingLimit> living = {};
+  std::vector<MotionCaveat> caveats = {};
   std::string guarantee;
-  std::optional<AllowedDepthRecord> depth = {};
-  std::optional<ClosedFormRecord> closed_form = {};
+  std::optional<motion::DepthLimit> depth = {};
+  std::optional<plan::ClosedLimit> closed_form = {};
   std::optional<std::optional<ZoneRecord>> zone =
       {};  ///< without zones empty, without one past this limit null
   std::optional<BandRecord> band = {};
@@ -156,14 +126,19 @@ inline constexpr auto table<PartsRecord> =
     record("PartsRecord", "Names of the meshes that touch, None of a body of one mesh.",
            CONDYLE_KEYS(PartsRecord, fixed, mobile));
 template <>
-inline constexpr auto table<AllowedDepthRecord> = record("AllowedDepthRecord",
-                                                         "Depths of a limit with a depth allowed.",
-                                                         CONDYLE_KEYS(AllowedDepthRecord, at_start_mm,
-                                                                      at_limit_mm, ray_to_normal_deg, grows));
+inline constexpr auto table<motion::DepthLimit> = record(
+    "AllowedDepthRecord", "Depths of a limit with a depth allowed.",
+    field("at_start_mm", &motion::DepthLimit::start_depth_mm),
+    field_along("at_limit_mm", "", &motion::DepthLimit::at_limit, &motion::DeepestPlace::depth_mm),
+    field_along("ray_to_normal_deg", "", &motion::DepthLimit::at_limit, &motion::DeepestPlace::ray_to_normal),
+    field("grows", &motion::DepthLimit::depth_grows));
 template <>
-inline constexpr auto table<ClosedFormRecord> =
+inline constexpr auto table<plan::ClosedLimit> =
     record("ClosedForm", "Where liner and neck of an implant end a motion, as bodies of revolution.",
-           CONDYLE_KEYS(ClosedFormRecord, limit_deg, reason, of_facets_deg));
+           field("limit_deg", &plan::ClosedLimit::turned), field("reason", &plan::ClosedLimit::reason),
+           field("of_facets_deg", [](const plan::ClosedLimit& limit) {
+             return std::array{limit.of_facets_low, limit.of_facets_high};
+           }));
 template <>
 inline constexpr auto table<BandWidthRecord> =
     record("BandWidthRecord", "Width of a band if only one source was uncertain.",
@@ -180,22 +155,29 @@ inline constexpr auto table<BoneReferenceRecord> =
            CONDYLE_KEYS(BoneReferenceRecord, healthy_deg, cam_without_complaints_deg, patients_deg,
                         people_each, is_short, source));
 template <>
-inline constexpr auto table<SoftTissueGapRecord> =
-    record("SoftTissueGap", "How much earlier soft tissue ended the motion than bone, in hips of cadavers.",
-           CONDYLE_KEYS(SoftTissueGapRecord, closeness, mean_deg, sd_deg, hips, source));
+inline constexpr auto table<SoftTissueGap> = record(
+    "SoftTissueGap", "How much earlier soft tissue ended the motion than bone, in hips of cadavers.",
+    field("closeness", &SoftTissueGap::closeness),
+    field_along("mean_deg", "", &SoftTissueGap::mean, as_given),
+    field_along("sd_deg", "", &SoftTissueGap::sd, as_given), CONDYLE_KEYS(SoftTissueGap, hips, source));
 template <>
-inline constexpr auto table<PeopleRangeRecord> =
+inline constexpr auto table<PeopleRange> =
     record("PeopleRange", "How far other people's hips turn, soft tissue included; never of this joint.",
-           CONDYLE_KEYS(PeopleRangeRecord, low_deg, high_deg, who, people, source));
+           field_along("low_deg", "", &PeopleRange::low, as_given),
+           field_along("high_deg", "", &PeopleRange::high, as_given),
+           CONDYLE_KEYS(PeopleRange, who, people, source));
 template <>
-inline constexpr auto table<LivingRecord> = record("LivingLimit",
-                                                   "What studies say of the living beside a limit of bone.",
-                                                   CONDYLE_KEYS(LivingRecord, expected_deg, expected_sd_deg,
-                                                                gap, people, text));
+inline constexpr auto table<LivingLimit> =
+    record("LivingLimit", "What studies say of the living beside a limit of bone.",
+           field("expected_deg", &LivingLimit::expected), field("expected_sd_deg", &LivingLimit::expected_sd),
+           CONDYLE_KEYS(LivingLimit, gap, people),
+           field("text", [](const LivingLimit& living) { return text_of(living); }));
 template <>
-inline constexpr auto table<CaveatRecord> =
+inline constexpr auto table<MotionCaveat> =
     record("Caveat", "A caveat to read before a limit is compared with a living joint.",
-           CONDYLE_KEYS(CaveatRecord, code, text, source));
+           CONDYLE_KEYS(MotionCaveat, code, text), field("source", [](const MotionCaveat& caveat) {
+             return caveat.source.empty() ? std::nullopt : std::optional(caveat.source);
+           }));
 
 template <class Record, class OwnField>
 constexpr auto zone_table(const char* name, const char* meaning, OwnField of_this_body) {
@@ -377,10 +359,10 @@ inline constexpr auto table<LimitRecord> = record(
                           "where a living hip with this bone is expected to end; empty where studies do not "
                           "say so",
                           Tables::studies},
-              &LimitRecord::living, &LivingRecord::expected_deg),
+              &LimitRecord::living, &LivingLimit::expected),
     column_of(FieldColumn{"living_expected_sd_deg", "its standard deviation, of the study and the band",
                           Tables::studies},
-              &LimitRecord::living, &LivingRecord::expected_sd_deg),
+              &LimitRecord::living, &LivingLimit::expected_sd),
     field("caveats", &LimitRecord::caveats,
           "list of `code`, `text` and `source` each: [what usually ends such a "
           "motion](range-of-motion.md#caveats); "

@@ -36,7 +36,9 @@ ShapeRecord shape_record(const MeasureAnswer& answer) {
   const std::string frame = measure::stated_frame(measures);
   ShapeRecord record{.pelvis_frame = frame,
                      .pelvic_tilt_deg = measures.pelvic_tilt.degrees(),
-                     .left_out = measures.left_out};
+                     .left_out = measures.left_out,
+                     .around_neck = measures.femur.around_neck,
+                     .rim = measures.acetabulum.rim};
   const auto definitions = measure::measure_definitions();
   for (std::size_t i = 0; i < definitions.size(); ++i) {
     const measure::MeasureDefinition& each = definitions[i];
@@ -54,19 +56,8 @@ ShapeRecord shape_record(const MeasureAnswer& answer) {
                          range_of(each.normal, false),
                          range_of(each.normal, true),
                          {}};
-    if (!answer.bands.empty()) {
-      const auto& [p5, median, p95, samples_without_value] = answer.bands[i];
-      of_one.band = {p5, median, p95, samples_without_value};
-    }
+    if (!answer.bands.empty()) of_one.band = answer.bands[i];
     record.measures.push_back(std::move(of_one));
-  }
-  for (const measure::NeckHour& at : measures.femur.around_neck)
-    record.around_neck.push_back({at.hour, at.alpha_deg, at.alpha_at_1mm_deg, at.is_doubtful, at.alpha_point,
-                                  at.offset_mm, at.offset_point});
-  for (const measure::RimHour& at : measures.acetabulum.rim) {
-    const auto if_there = [&](double value) { return at.point ? std::optional(value) : std::nullopt; };
-    record.rim.push_back(
-        {at.hour, at.point, if_there(at.cover_deg), if_there(at.centre_edge_deg), at.is_in_plane});
   }
   return record;
 }

@@ -14,10 +14,6 @@ struct NormalRangeRecord {
   std::optional<int> count;
   std::string_view meaning, source;
 };
-struct MeasureBandRecord {
-  std::optional<double> p5, median, p95;
-  std::size_t samples_without_value;
-};
 struct MeasureRecord {
   std::string_view key;
   measure::MeasuredPart part;
@@ -29,21 +25,7 @@ struct MeasureRecord {
   std::string_view source;
   std::optional<std::string> frame;
   std::optional<NormalRangeRecord> normal, patients;
-  std::optional<MeasureBandRecord> band;
-};
-struct NeckHourRecord {
-  double hour;
-  std::optional<double> alpha_deg, alpha_at_1mm_deg;
-  bool is_doubtful;
-  std::optional<Vec3> alpha_point_mm;
-  std::optional<double> offset_mm;
-  std::optional<Vec3> offset_point_mm;
-};
-struct RimHourRecord {
-  double hour;
-  std::optional<Vec3> point_mm;
-  std::optional<double> cover_deg, centre_edge_deg;
-  bool is_in_plane;
+  std::optional<measure::MeasureBand> band;
 };
 
 /// The shape of a hip. Points are in the joint frame, whatever the frame of the answer.
@@ -52,11 +34,17 @@ struct ShapeRecord {
   double pelvic_tilt_deg;
   std::vector<std::string> left_out = {};
   std::vector<MeasureRecord> measures = {};
-  std::vector<NeckHourRecord> around_neck = {};
-  std::vector<RimHourRecord> rim = {};
+  std::vector<measure::NeckHour> around_neck = {};
+  std::vector<measure::RimHour> rim = {};
 };
 
 ShapeRecord shape_record(const MeasureAnswer& answer);
+
+/// Of a rim that there is.
+template <auto member>
+std::optional<double> if_there(const measure::RimHour& rim) {
+  return rim.point ? std::optional(rim.*member) : std::nullopt;
+}
 
 template <>
 inline constexpr auto table<NormalRangeRecord> =
@@ -67,11 +55,12 @@ inline constexpr auto table<NormalRangeRecord> =
            field("meaning", &NormalRangeRecord::meaning, "which measures lie between"),
            field("source", &NormalRangeRecord::source, "where they are from"));
 template <>
-inline constexpr auto table<MeasureBandRecord> = record(
-    "MeasureBand", "A measure over varied joints.",
-    field("p5", &MeasureBandRecord::p5, "5 % of them are below; null if none shows the measure"),
-    CONDYLE_KEYS(MeasureBandRecord, median, p95),
-    field("samples_without_value", &MeasureBandRecord::samples_without_value, "joints that do not show it"));
+inline constexpr auto table<measure::MeasureBand> =
+    record("MeasureBand", "A measure over varied joints.",
+           field("p5", &measure::MeasureBand::p5, "5 % of them are below; null if none shows the measure"),
+           CONDYLE_KEYS(measure::MeasureBand, median, p95),
+           field("samples_without_value", &measure::MeasureBand::samples_without_value,
+                 "joints that do not show it"));
 template <>
 inline constexpr auto table<MeasureRecord> = record(
     "MeasureRecord", "One measure of a hip.", field("key", &MeasureRecord::key, "its name"),
@@ -93,14 +82,19 @@ inline constexpr auto table<MeasureRecord> = record(
           "`p5`, `median`, `p95` over the varied joints, and `samples_without_value`; null without "
           "`--band`"));
 template <>
-inline constexpr auto table<NeckHourRecord> =
+inline constexpr auto table<measure::NeckHour> =
     record("NeckHour", "What is measured in one direction around the neck, 12 superior and 3 anterior.",
-           CONDYLE_KEYS(NeckHourRecord, hour, alpha_deg, alpha_at_1mm_deg, is_doubtful, alpha_point_mm,
-                        offset_mm, offset_point_mm));
+           CONDYLE_KEYS(measure::NeckHour, hour, alpha_deg, alpha_at_1mm_deg, is_doubtful),
+           field("alpha_point_mm", &measure::NeckHour::alpha_point),
+           field("offset_mm", &measure::NeckHour::offset_mm),
+           field("offset_point_mm", &measure::NeckHour::offset_point));
 template <>
-inline constexpr auto table<RimHourRecord> =
+inline constexpr auto table<measure::RimHour> =
     record("RimHour", "The rim in one direction around the socket, 12 superior and 3 anterior.",
-           CONDYLE_KEYS(RimHourRecord, hour, point_mm, cover_deg, centre_edge_deg, is_in_plane));
+           field("hour", &measure::RimHour::hour), field("point_mm", &measure::RimHour::point),
+           field("cover_deg", if_there<&measure::RimHour::cover_deg>),
+           field("centre_edge_deg", if_there<&measure::RimHour::centre_edge_deg>),
+           field("is_in_plane", &measure::RimHour::is_in_plane));
 template <>
 inline constexpr auto table<ShapeRecord> = record(
     "ShapeRecord", "The shape of a hip, in the words of measures.json.",

@@ -4,20 +4,23 @@
 
 #include <array>
 #include <concepts>
+#include <functional>
 #include <optional>
 #include <tuple>
 #include <type_traits>
 #include <vector>
 
 #include "condyle/angle.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/pose.hpp"
 
 /// Records: what is said of an answer, in the words of the files.
 ///
-/// A record is a plain struct whose members have the names and units of the files' keys. One function fills it. Its table, table<Record>,
-/// says each key once; the walks over the tables (io/record/) make JSON, CSV and the columns of studies of any record, and the pages of docs/
-/// are compared with them. An empty std::optional is a value that is not known.
+/// A record is a struct with a table, table<Record>, that says each key once, and how its value is reached: by members, or by functions of
+/// the struct. An answer's own struct is one wherever it has what is said; else a plain struct has it, whose members are named as the keys, and
+/// one function fills that. The walks over the tables (io/record/) make JSON, CSV and the columns of studies of any record, and the pages of
+/// docs/ are compared with them. An empty std::optional is a value that is not known.
 
 namespace condyle {
 
@@ -33,6 +36,14 @@ struct PointM {
 struct GivenDegrees {
   Angle angle;
 };
+constexpr GivenDegrees as_given(const Angle& angle) noexcept {
+  return {angle};
+}
+
+/// As in files: "fixed".
+constexpr std::string_view name_of(BodyRole role) noexcept {
+  return role == BodyRole::fixed ? "fixed" : "mobile";
+}
 
 /// A value for each angle of a joint, under the names that the joint has for them; an empty one is left out.
 template <class Value>
@@ -61,39 +72,44 @@ struct NoColumn {};
 /// What JSON has of an empty value.
 enum class IfEmpty : std::uint8_t { null, left_out };
 
-/// An entry of a record's table: a value, by the members that lead to it.
-template <class ColumnOrNone, class... Members>
+/// An entry of a record's table: a value, by the members, or functions of what comes before, that lead to it.
+template <class ColumnOrNone, class... Steps>
 struct Field {
   static constexpr bool has_column = std::same_as<ColumnOrNone, FieldColumn>;
 
   const char* key;  ///< "": in tables only
-  std::tuple<Members...> path;
+  std::tuple<Steps...> path;
   const char* meaning;  ///< of the key, as the page of docs/ has it
   ColumnOrNone column;
   IfEmpty if_empty;
 };
 
 /// A key of a record.
-template <class Record, class Value>
-constexpr Field<NoColumn, Value Record::*> field(const char* key, Value Record::*member,
-                                                 const char* meaning = "", IfEmpty if_empty = IfEmpty::null) {
-  return {key, {member}, meaning, {}, if_empty};
+template <class Step>
+constexpr Field<NoColumn, Step> field(const char* key, Step step, const char* meaning = "",
+                                      IfEmpty if_empty = IfEmpty::null) {
+  return {key, {step}, meaning, {}, if_empty};
+}
+/// One whose value is further down.
+template <class... Steps>
+constexpr Field<NoColumn, Steps...> field_along(const char* key, const char* meaning, Steps... steps) {
+  return {key, {steps...}, meaning, {}, IfEmpty::null};
 }
 /// One that tables have too.
-template <class Record, class Value>
-constexpr Field<FieldColumn, Value Record::*> field(const char* key, Value Record::*member,
-                                                    const char* meaning, FieldColumn column) {
-  return {key, {member}, meaning, column, IfEmpty::null};
+template <class Step>
+constexpr Field<FieldColumn, Step> field(const char* key, Step step, const char* meaning,
+                                         FieldColumn column) {
+  return {key, {step}, meaning, column, IfEmpty::null};
 }
 /// A key that JSON does not have if its value is empty.
-template <class Record, class Value>
-constexpr auto field_if_any(const char* key, Value Record::*member, const char* meaning = "") {
-  return field(key, member, meaning, IfEmpty::left_out);
+template <class Step>
+constexpr auto field_if_any(const char* key, Step step, const char* meaning = "") {
+  return field(key, step, meaning, IfEmpty::left_out);
 }
 /// A column of a value further down, which JSON has in its own record.
-template <class... Members>
-constexpr Field<FieldColumn, Members...> column_of(FieldColumn column, Members... path) {
-  return {"", {path...}, "", column, IfEmpty::null};
+template <class... Steps>
+constexpr Field<FieldColumn, Steps...> column_of(FieldColumn column, Steps... steps) {
+  return {"", {steps...}, "", column, IfEmpty::null};
 }
 
 /// A record's name outside C++, what it is, and its fields in the order of the files.
@@ -141,18 +157,38 @@ inline constexpr bool is_of_angles = false;
 template <class Type>
 inline constexpr bool is_of_angles<OfAngles<Type>> = true;
 
-/// The value to which members lead, without its optionals; null if one of them is empty.
+/// The value to which steps lead: the optional of it if anything on the way is optional.
+template <class Value, class First, class... Rest>
+constexpr decltype(auto) value_at(const Value& value, const First& first, const Rest&... rest) {
+  if constexpr (is_optional<Value>) {
+    using Found = std::remove_cvref_t<decltype(value_at(*value, first, rest...))>;
+    using Maybe = std::conditional_t<is_optional<Found>, Found, std::optional<Found>>;
+    return value ? Maybe(value_at(*value, first, rest...)) : Maybe();
+  } else if constexpr (sizeof...(rest) == 0) {
+    return std::invoke(first, value);
+  } else {  // by value: a step may be a function, whose result goes
+    return std::remove_cvref_t<decltype(value_at(std::invoke(first, value), rest...))>(
+        value_at(std::invoke(first, value), rest...));
+  }
+}
+
+/// That of a field.
+template <class Record, class Field>
+constexpr decltype(auto) value_of(const Record& record, const Field& field) {
+  return std::apply([&](const auto&... steps) -> decltype(auto) { return value_at(record, steps...); },
+                    field.path);
+}
+template <class Record, class Field>
+using ValueOf =
+    std::remove_cvref_t<decltype(value_of(std::declval<const Record&>(), std::declval<const Field&>()))>;
+
+/// A value without its optionals; null if one of them is empty.
 template <class Value>
 constexpr auto reached(const Value* value) {
   if constexpr (is_optional<Value>)
     return reached(value && *value ? &**value : nullptr);
   else
     return value;
-}
-template <class Value, class Record, class Member, class... Rest>
-constexpr auto reached(const Value* value, Member Record::*first, Rest... rest) {
-  const Record* record = reached(value);
-  return reached(record ? &(record->*first) : nullptr, rest...);
 }
 
 }  // namespace condyle

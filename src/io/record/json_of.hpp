@@ -22,10 +22,10 @@ Json json_of(const Value& value, const RecordContext& context) {
     Json json = Json::object();
     for_each_field<Value>([&](const auto& field) {
       if (*field.key == 0) return;
-      const auto& member = value.*std::get<0>(field.path);
-      if constexpr (is_optional<std::remove_cvref_t<decltype(member)>>)
-        if (!member && field.if_empty == IfEmpty::left_out) return;
-      json[field.key] = json_of(member, context);
+      const auto& of_field = value_of(value, field);
+      if constexpr (is_optional<std::remove_cvref_t<decltype(of_field)>>)
+        if (!of_field && field.if_empty == IfEmpty::left_out) return;
+      json[field.key] = json_of(of_field, context);
     });
     return json;
   } else if constexpr (is_of_angles<Value>) {
@@ -44,6 +44,8 @@ Json json_of(const Value& value, const RecordContext& context) {
     return numbers(context.frame.mobile_point(value.mm));
   } else if constexpr (std::same_as<Value, Vec3>) {
     return numbers(value);
+  } else if constexpr (std::same_as<Value, Angle>) {
+    return value.degrees();
   } else if constexpr (std::same_as<Value, GivenDegrees>) {
     return given_degrees(value.angle);
   } else if constexpr (std::same_as<Value, JointAngle>) {

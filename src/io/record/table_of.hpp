@@ -19,11 +19,8 @@ template <class Value>
 inline constexpr bool is_point =
     std::same_as<Value, PointF> || std::same_as<Value, PointM> || std::same_as<Value, Vec3>;
 
-/// The value to which a field's members lead.
-template <class Record, class Field>
-auto value_of(const Record* record, const Field& field) {
-  return std::apply([&](const auto&... members) { return reached(record, members...); }, field.path);
-}
+template <class Value>
+inline constexpr bool is_angle = std::same_as<Value, Angle> || std::same_as<Value, GivenDegrees>;
 
 /// The unit that ends a name: "limit_deg".
 inline std::string unit_of(std::string_view name) {
@@ -37,7 +34,7 @@ std::string cell_of(const Value& value, const RecordContext& context) {
     return value ? "true" : "false";
   } else if constexpr (std::is_arithmetic_v<Value>) {
     return fmt::format("{}", value);
-  } else if constexpr (std::is_enum_v<Value> || std::same_as<Value, GivenDegrees>) {
+  } else if constexpr (std::is_enum_v<Value> || is_angle<Value>) {
     const Json json = json_of(value, context);
     return json.is_string() ? json.get<std::string>() : fmt::format("{}", json.get<double>());
   } else if constexpr (IsRecord<Value>) {
@@ -58,11 +55,11 @@ template <class Record, class Shown>
 std::vector<ResultColumn> columns_of(Anatomy joint, const Shown& shown) {
   constexpr std::array<const char*, 3> directions = {"anterior", "superior", "to the subject's right"};
   std::vector<ResultColumn> columns;
-  for_each_field<Record>([&](const auto& field) {
-    if constexpr (std::remove_cvref_t<decltype(field)>::has_column) {
+  for_each_field<Record>([&]<class Field>(const Field& field) {
+    if constexpr (Field::has_column) {
       if (!shown(field.column)) return;
       using Value =
-          std::remove_cvref_t<decltype(*cells::value_of(static_cast<const Record*>(nullptr), field))>;
+          std::remove_cvref_t<decltype(*reached(static_cast<const ValueOf<Record, Field>*>(nullptr)))>;
       const std::string name = *field.column.name ? field.column.name : field.key;
       if constexpr (cells::is_point<Value>) {
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -74,7 +71,7 @@ std::vector<ResultColumn> columns_of(Anatomy joint, const Shown& shown) {
                              field.column.meaning});
       } else {
         constexpr bool is_number =
-            (std::is_arithmetic_v<Value> && !std::same_as<Value, bool>) || std::same_as<Value, GivenDegrees>;
+            (std::is_arithmetic_v<Value> && !std::same_as<Value, bool>) || cells::is_angle<Value>;
         columns.push_back(
             {name, cells::unit_of(name), is_number ? number_column : text_column, field.column.meaning});
       }
@@ -90,7 +87,8 @@ void append_cells(std::vector<std::string>& cells, const Record& record, const R
   for_each_field<Record>([&](const auto& field) {
     if constexpr (std::remove_cvref_t<decltype(field)>::has_column) {
       if (!shown(field.column)) return;
-      const auto* value = cells::value_of(&record, field);
+      const auto& of_field = value_of(record, field);
+      const auto* value = reached(&of_field);
       using Value = std::remove_cvref_t<decltype(*value)>;
       constexpr bool is_three = cells::is_point<Value> || is_of_angles<Value>;
       if (!value) return cells.resize(cells.size() + (is_three ? 3 : 1));

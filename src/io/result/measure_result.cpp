@@ -198,7 +198,7 @@ std::string measures_csv(const MeasureResult& result) {
   for (std::size_t i = 0; i < shape.measures.size(); ++i) {
     const MeasureRecord& each = shape.measures[i];
     const std::optional<measure::NormalRange>& range = measure::measure_definitions()[i].normal;
-    const auto& [p5, median, p95, samples_without_value] = each.band.value_or(MeasureBandRecord{});
+    const auto& [p5, median, p95, samples_without_value] = each.band.value_or(measure::MeasureBand{});
     const auto ends_of = [](const std::optional<NormalRangeRecord>& people) {
       return people ? fmt::format("{},{}", people->low, people->high) : ",";
     };

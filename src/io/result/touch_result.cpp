@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "answer/records/touch_record.hpp"
+#include "answer/records/touch_table.hpp"
 #include "condyle/version.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
@@ -28,14 +28,14 @@ Json matrix_rows(const Pose& X) {
   return rows;
 }
 
-template <class Record>
-Json touch_answer_object(const Record& record, const TouchFiles* files) {
+template <class Answer>
+Json touch_answer_object(const Answer& answer, const TouchFiles* files) {
   Json json{{"condyle", format_version}};
   if (files) {
     json["fixed"] = files->fixed.path.string(), json["mobile"] = files->mobile.path.string();
     json["X_FM"] = matrix_rows(files->X_FM);
   }
-  json.update(io::json_of(record, {{}, Anatomy::hip}));
+  json.update(io::json_of(answer, {{}, Anatomy::hip}));
   if (files)
     json["provenance"] = {{"version", version},
                           {"command", files->command},
@@ -49,37 +49,40 @@ std::string both_names(const TouchFiles& files) {
   return fmt::format("{} and {}", files.fixed.path.string(), files.mobile.path.string());
 }
 
-const std::filesystem::path& file_in_role(const TouchFiles& files, std::string_view role) {
-  return role == "fixed" ? files.fixed.path : files.mobile.path;
+const std::filesystem::path& file_in_role(const TouchFiles& files, BodyRole role) {
+  return role == BodyRole::fixed ? files.fixed.path : files.mobile.path;
+}
+
+std::string place_text(const std::optional<motion::ContactWitness>& contact) {
+  return contact ? ", at " + shown(contact->fixed_point) : "";
 }
 
 /// "12.3 degrees", or why there is none.
-std::string touch_end_text(const TurnEndRecord& end) {
-  using motion::LimitReason;
-  if (end.reason == LimitReason::end_of_range) return "nothing is met in a whole turn";
-  return fmt::format("{:.9g} degrees{}", shown(end.turned_deg),
-                     end.contact_point_mm ? ", at " + shown(*end.contact_point_mm) : "");
+std::string touch_end_text(const motion::Limit& end) {
+  if (end.reason == motion::LimitReason::end_of_range) return "nothing is met in a whole turn";
+  return fmt::format("{:.9g} degrees{}", shown(end.turned.degrees()), place_text(end.contact));
 }
-std::string touch_end_text(const SlideEndRecord& end) {
-  if (!end.moved_mm) return "nothing is met";
-  return fmt::format("{:.9g} mm{}", shown(*end.moved_mm),
-                     end.contact_point_mm ? ", at " + shown(*end.contact_point_mm) : "");
+std::string touch_end_text(const motion::SlideEnd& end) {
+  if (!end.at_mm) return "nothing is met";
+  return fmt::format("{:.9g} mm{}", shown(*end.at_mm), place_text(end.contact));
 }
 
-/// `bound(value)` of each end, in words of `unit`.
-template <class Record>
-std::string free_intervals_text(const Record& record, std::string_view unit, const auto& bounds) {
+/// `bounds(each)` of each interval, in words of `unit`.
+template <class End, class Interval>
+std::string free_intervals_text(bool free_at_start, const End& negative, const End& positive,
+                                const std::vector<Interval>& free, std::string_view unit,
+                                const auto& bounds) {
   std::string text;
-  if (record.free_at_start)
-    text += fmt::format("  first contact on: {}\n  first contact back: {}\n", touch_end_text(record.positive),
-                        touch_end_text(record.negative));
+  if (free_at_start)
+    text += fmt::format("  first contact on: {}\n  first contact back: {}\n", touch_end_text(positive),
+                        touch_end_text(negative));
   else
     text += "  in contact where they are given\n";
-  if (record.free.empty()) return text + "  nowhere free\n";
+  if (free.empty()) return text + "  nowhere free\n";
   text += "  free:";
-  for (const auto& each : record.free) {
+  for (const Interval& each : free) {
     const auto [low, high] = bounds(each);
-    text += fmt::format(" {} to {}{}", low, high, &each == &record.free.back() ? "" : ",");
+    text += fmt::format(" {} to {}{}", low, high, &each == &free.back() ? "" : ",");
   }
   return text + fmt::format(" {}\n", unit);
 }
@@ -110,80 +113,79 @@ MeshArray marks_of(const TouchAnswer& answer, std::size_t triangles, Index conta
 }  // namespace
 
 Json touch_object(const TouchAnswer& answer, const TouchFiles* files) {
-  return touch_answer_object(touch_record(answer), files);
+  return touch_answer_object(answer, files);
 }
 Json turn_object(const TurnAnswer& answer, const TouchFiles* files) {
-  return touch_answer_object(turn_record(answer), files);
+  return touch_answer_object(answer, files);
 }
 Json slide_object(const SlideAnswer& answer, const TouchFiles* files) {
-  return touch_answer_object(slide_record(answer), files);
+  return touch_answer_object(answer, files);
 }
 
 std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
-  const TouchRecord record = touch_record(answer);
-  std::string text = fmt::format("{}: {}\n", both_names(files), record.in_contact ? "in contact" : "apart");
-  if (record.inside)
-    text += fmt::format("  {} is wholly inside the other\n", file_in_role(files, *record.inside).string());
-  if (record.nearest_distance_mm)
-    text += fmt::format("  nearest distance of the surfaces: {:.6g} mm, at {} and {}\n",
-                        *record.nearest_distance_mm, shown(*record.nearest_fixed_mm),
-                        shown(*record.nearest_mobile_mm));
-  if (record.intersecting_pairs > 0)
-    text += fmt::format("  pairs of triangles that meet: {}\n", record.intersecting_pairs);
-  if (const auto& deepest = record.deepest)
+  std::string text = fmt::format("{}: {}\n", both_names(files), answer.in_contact ? "in contact" : "apart");
+  if (answer.inside)
+    text += fmt::format("  {} is wholly inside the other\n", file_in_role(files, *answer.inside).string());
+  if (const auto& nearest = answer.nearest)
+    text += fmt::format("  nearest distance of the surfaces: {:.6g} mm, at {} and {}\n", nearest->distance_mm,
+                        shown(nearest->on_fixed), shown(nearest->on_mobile));
+  if (!answer.pairs.empty()) text += fmt::format("  pairs of triangles that meet: {}\n", answer.pairs.size());
+  if (const auto& deepest = answer.deepest)
     text += fmt::format(
         "  depth: {:.6g} mm to the nearest surface{}, at {} of {}, out along {}\n", deepest->depth_mm,
         deepest->error_mm > 1e-6 * deepest->depth_mm
             ? fmt::format(" (no place is deeper by more than {} mm)", core::at_most(deepest->error_mm, 1))
             : "",
-        shown(deepest->place_mm), file_in_role(files, deepest->body).string(), shown(deepest->normal));
-  else if (record.depth_bound_mm)
+        shown(deepest->place), file_in_role(files, deepest->of).string(), shown(deepest->normal));
+  else if (answer.depth_bound_mm)
     text += fmt::format("  depth: none found; no place of a surface is deeper in the other body than {} mm\n",
-                        core::at_most(*record.depth_bound_mm, 1));
-  if (record.ray_depth_mm)
-    text += fmt::format("    {:.6g} mm along rays from the centre\n", *record.ray_depth_mm);
-  if (record.volume_mm3)
-    text += fmt::format("  penetration volume: {:.6g} mm3, off by {} at most\n", *record.volume_mm3,
-                        core::at_most(*record.volume_error_mm3, 1));
-  const auto add_again = [&](const std::filesystem::path& path, const std::optional<double>& again) {
-    if (again.value_or(0) > 0)
-      text += fmt::format("    of it {:.6g} mm3 are counted again: {} covers them more than once\n", *again,
+                        core::at_most(*answer.depth_bound_mm, 1));
+  if (answer.ray_depth_mm)
+    text += fmt::format("    {:.6g} mm along rays from the centre\n", *answer.ray_depth_mm);
+  const TouchOverlap overlap = answer.overlap.value_or(TouchOverlap{});
+  if (overlap.volume_mm3)
+    text += fmt::format("  penetration volume: {:.6g} mm3, off by {} at most\n", *overlap.volume_mm3,
+                        core::at_most(overlap.volume_error_mm3, 1));
+  const auto add_again = [&](const std::filesystem::path& path, double again) {
+    if (overlap.volume_mm3 && again > 0)
+      text += fmt::format("    of it {:.6g} mm3 are counted again: {} covers them more than once\n", again,
                           path.string());
   };
-  add_again(files.fixed.path, record.fixed_covered_again_mm3);
-  add_again(files.mobile.path, record.mobile_covered_again_mm3);
-  if (record.fixed_area_mm2)
-    text += fmt::format("  surface of {} inside: {:.6g} mm2\n", files.fixed.path.string(),
-                        *record.fixed_area_mm2);
-  if (record.mobile_area_mm2)
-    text += fmt::format("  surface of {} inside: {:.6g} mm2\n", files.mobile.path.string(),
-                        *record.mobile_area_mm2);
-  if (record.in_contact)
-    for (const FreeTranslationRecord& each : record.free)
+  add_again(files.fixed.path, overlap.fixed_covered_again_mm3);
+  add_again(files.mobile.path, overlap.mobile_covered_again_mm3);
+  const auto add_area = [&](const std::filesystem::path& path, const std::optional<double>& area_mm2) {
+    if (area_mm2) text += fmt::format("  surface of {} inside: {:.6g} mm2\n", path.string(), *area_mm2);
+  };
+  add_area(files.fixed.path, overlap.fixed_area_mm2);
+  add_area(files.mobile.path, overlap.mobile_area_mm2);
+  if (answer.in_contact)
+    for (const FreeTranslation& each : answer.free)
       text += fmt::format("  free once {} has moved {:.9g} mm along {}\n", files.mobile.path.string(),
                           each.distance_mm, shown(each.along));
   return text;
 }
 
 std::string turn_text(const TurnAnswer& answer, const TouchFiles& files) {
-  const TurnRecord record = turn_record(answer);
-  return fmt::format("{}: the second turns about {} through {}\n", both_names(files), shown(record.axis),
-                     shown(record.centre_mm)) +
-         free_intervals_text(record, "degrees", [](const TurnIntervalRecord& each) {
-           return std::pair(fmt::format("{:.9g}", shown(each.low_deg)),
-                            fmt::format("{:.9g}", shown(each.high_deg)));
-         });
+  const motion::RotationLimits& ends = answer.free.from_start;
+  return fmt::format("{}: the second turns about {} through {}\n", both_names(files),
+                     shown(answer.request.axis), shown(answer.request.centre)) +
+         free_intervals_text(ends.free_at_start(), ends.negative, ends.positive, answer.free.intervals,
+                             "degrees", [](const motion::FreeInterval& each) {
+                               return std::pair(fmt::format("{:.9g}", shown(each.low.degrees())),
+                                                fmt::format("{:.9g}", shown(each.high.degrees())));
+                             });
 }
 
 std::string slide_text(const SlideAnswer& answer, const TouchFiles& files) {
-  const SlideRecord record = slide_record(answer);
-  return fmt::format("{}: the second slides along {}\n", both_names(files), shown(record.along)) +
-         free_intervals_text(record, "mm", [](const SlideIntervalRecord& each) {
-           const auto end = [](const std::optional<double>& mm) {
-             return mm ? fmt::format("{:.9g}", shown(*mm)) : "any";
-           };
-           return std::pair(end(each.low_mm), end(each.high_mm));
-         });
+  const motion::FreeSlides& free = answer.free;
+  const auto end = [](const motion::SlideEnd& at) {
+    return at.at_mm ? fmt::format("{:.9g}", shown(*at.at_mm)) : "any";
+  };
+  return fmt::format("{}: the second slides along {}\n", both_names(files),
+                     shown(core::ordered_direction(answer.request.along))) +
+         free_intervals_text(
+             free.free_at_start, free.negative, free.positive, free.intervals, "mm",
+             [&](const motion::FreeSlide& each) { return std::pair(end(each.low), end(each.high)); });
 }
 
 void check_touch_folder(const std::filesystem::path& folder, const TouchFiles& files) {
