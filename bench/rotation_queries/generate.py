@@ -7,7 +7,6 @@ none may be contradicted by second_opinion.py; else nothing is written.
 """
 
 import hashlib
-import io
 import itertools
 import sys
 from dataclasses import replace
@@ -436,6 +435,11 @@ def degenerate_queries(seed: int = SEED, each: int = 125) -> Iterator[Query]:
             yield query
 
 
+def degenerate_file(seed: int = SEED) -> Iterator[str]:
+    """All of them, before any is written."""
+    yield "".join(rows_of(query) for query in degenerate_queries(seed))
+
+
 def write(pieces: Iterator[str], path: str) -> str:
     digest = hashlib.sha256()
     with open(path, "w", encoding="ascii", newline="\n") as file:
@@ -450,10 +454,7 @@ def main(arguments: List[str]) -> None:
         pieces = random_file(int(arguments[1]), int(arguments[3]) if len(arguments) == 4 else SEED)
         print(write(pieces, arguments[2]), arguments[2])
     elif len(arguments) in (2, 3) and arguments[0] == "degenerate":
-        rows = io.StringIO()
-        for query in degenerate_queries(int(arguments[2]) if len(arguments) == 3 else SEED):
-            rows.write(rows_of(query))
-        print(write(iter([rows.getvalue()]), arguments[1]), arguments[1])
+        print(write(degenerate_file(int(arguments[2]) if len(arguments) == 3 else SEED), arguments[1]), arguments[1])
     else:
         sys.exit(__doc__)
 

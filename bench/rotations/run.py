@@ -15,6 +15,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Iterator
 
 QUERIES = Path(__file__).resolve().parent.parent / "rotation_queries"
 sys.path.insert(0, str(QUERIES))
@@ -47,11 +48,10 @@ def expected_digests() -> "dict[str, str]":
     return {name: digest for digest, name in (line.split() for line in lines)}
 
 
-def random_queries(folder: Path) -> Path:
-    path = folder / "random.csv"
-    if not path.exists() or digest_of(path) != expected_digests()["random.csv"]:
+def made(path: Path, pieces: Iterator[str]) -> Path:
+    if not path.exists() or digest_of(path) != expected_digests()[path.name]:
         print(f"making {path}", flush=True)
-        generate.write(generate.random_file(COUNT), str(path))
+        generate.write(pieces, str(path))
     return path
 
 
@@ -98,11 +98,11 @@ def methods_table(name: str, title: str, results: dict) -> dict:
     return table(name, title, columns, rows)
 
 
-def kinds_table(results: dict) -> dict:
+def kinds_table(results: dict, queries: Path) -> dict:
     columns = [("kind", "kind"), ("queries", "queries"), ("contacts", "contacts")]
     columns += [(method, method) for method in results]
     contacts = {}
-    with open(QUERIES / "degenerate.csv", encoding="ascii") as file:
+    with open(queries, encoding="ascii") as file:
         for query in read_queries(file):
             if check.is_about_coordinate(query):
                 contacts[query.kind] = contacts.get(query.kind, 0) + query.answer
@@ -161,7 +161,8 @@ def machine(load_before: float) -> dict:
 def main(program: str, folder: Path) -> int:
     load = os.getloadavg()[0]
     disagreements = []
-    files = {"random": random_queries(folder), "degenerate": QUERIES / "degenerate.csv"}
+    files = {"random": made(folder / "random.csv", generate.random_file(COUNT)),
+             "degenerate": made(folder / "degenerate.csv", generate.degenerate_file())}
     for path in files.values():
         if digest_of(path) != expected_digests()[path.name]:
             disagreements.append(f"{path} is not the file of digests.txt")
@@ -177,7 +178,7 @@ def main(program: str, folder: Path) -> int:
             counts = results[name][title][0]
             if total(counts, check.MISSED, True) + total(counts, check.INVENTED, True):
                 disagreements.append(f"{title} misses or invents contact in {name} queries")
-    tables.append(kinds_table(results["degenerate"]))
+    tables.append(kinds_table(results["degenerate"], files["degenerate"]))
     tables.append(opinions_table(list(files.values())))
     disagreements += [f"contradicted: {row}" for row in tables[-1]["rows"] if row["contradicted"]]
     run = {"machine": machine(load), "tables": tables, "skipped": [], "disagreements": disagreements}
