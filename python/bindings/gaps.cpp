@@ -16,7 +16,7 @@ namespace condyle::python {
 static py::dict dict_of(contact::ReliableDepths&& depths) {
   py::dict dict;
   dict["depth_mm"] = array_of(std::move(depths.depth_mm));
-  dict["way"] = bytes_of(depths.kind);
+  dict["kind"] = bytes_of(depths.kind);
   dict["without"] = depths.without;
   dict["deepest"] = depths.deepest ? py::object(py::int_(depths.deepest->vertex)) : py::none();
   return dict;

@@ -18,7 +18,7 @@ from ._errors import CondyleError, FileError, JointRemark, JointWarning, MeshErr
 from ._errors import UnknownNameError, UsageError
 from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
-from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
+from ._gaps import DEPTH_KINDS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
 from ._impingement_zone import BodyZone, ImpingementZone
 from ._implant import REVERSE_SHOULDER_SIZES, SampleImplant, sample_replacement
 from ._implant import sample_reverse_shoulder
@@ -60,7 +60,7 @@ from ._touch import Answers, slide, touch, turn
 __all__ = [
     "Answers", "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BoneReference", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "OtherCentre", "ReachedTarget", "Resection", "ResectionAlternative", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
     "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
-    "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
+    "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "DEPTH_KINDS", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
     "FittedSphere", "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "ImplantPair", "Joint", "JointContact", "JointMotion", "Ligament", "LigamentStates", "LigamentWrap", "JointNote", "PartParameter", "ZeroPose",
     "JointProposal", "JointRemark", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
@@ -69,7 +69,7 @@ __all__ = [
     "OutOfRangeError", "PathLimit", "PeopleRange", "Penetration", "Penetrations", "PlacedImplant", "Pose", "PoseStanding", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "Record", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
     "SafeInterval", "SampleHip", "SampleImplant", "ScrewStep", "SlideRecord", "SoftTissueGap", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TouchRecord", "TriMesh", "TurnRecord",
-    "UnknownNameError", "UsageError", "VertexDepths", "VertexForces", "VertexGaps", "VertexStiffness", "VerticesInside", "WAYS", "__version__",
+    "UnknownNameError", "UsageError", "VertexDepths", "VertexForces", "VertexGaps", "VertexStiffness", "VerticesInside", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",
     "read_motion_table", "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort",

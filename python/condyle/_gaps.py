@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from ._answer import Columns, at_most, html_of
 from ._mesh import TriMesh
 from ._pose_standing import PoseStanding
-from ._words import Way
+from ._words import DepthKind
 
 if TYPE_CHECKING:
     import pandas
 
-#: Values of `VertexDepths.way`, by number.
-WAYS: tuple[Way, ...] = get_args(Way)
+#: Values of `VertexDepths.kind`, by number.
+DEPTH_KINDS: tuple[DepthKind, ...] = get_args(DepthKind)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,8 +75,8 @@ class VertexDepths(Columns):
     ----------
     depth_mm : (V,) float64
         Finite, at least 0; 0 for vertices that are not inside.
-    way : (V,) int8
-        The kind of depth, a position in :data:`WAYS`: the ray where it faces the surface, else the shortest arc about one
+    kind : (V,) int8
+        The kind of depth, a position in :data:`DEPTH_KINDS`: the ray where it faces the surface, else the shortest arc about one
         of the joint's axes, else to the nearest point.
     without : int
         Vertices inside of which neither ray nor arc is a depth.
@@ -85,7 +85,7 @@ class VertexDepths(Columns):
     """
 
     depth_mm: NDArray[np.float64]
-    way: NDArray[np.int8]
+    kind: NDArray[np.int8]
     without: int
     deepest: Optional[int]
 
@@ -93,7 +93,7 @@ class VertexDepths(Columns):
         return len(self.depth_mm)
 
     def __repr__(self) -> str:
-        inside = int((self.way != 0).sum())
+        inside = int((self.kind != 0).sum())
         deepest = "" if self.deepest is None else f", up to {self.depth_mm[self.deepest]:.6g} mm"
         return f"VertexDepths({len(self)} vertices, {inside} inside{deepest})"
 

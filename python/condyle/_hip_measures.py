@@ -12,7 +12,7 @@ from . import _native
 from ._answer import html_of
 from ._described_joint import DescribedJoint
 from ._errors import unknown
-from ._record import columns_of, renamed
+from ._record import columns_of
 from ._records import MeasureRecord
 from ._words import Progress, band_of, number, progress_of
 
@@ -22,11 +22,6 @@ if TYPE_CHECKING:
 
 class HipMeasure(MeasureRecord):
     __doc__ = MeasureRecord.__doc__
-
-    @property
-    def in_pelvis_frame(self) -> bool:
-        """Deprecated: whether `frame` is not None."""
-        return renamed("in_pelvis_frame", "frame", self.frame is not None)
 
 
 def _column(of_hours: Iterable[Mapping[str, Optional[float]]], key: str) -> NDArray[np.float64]:

@@ -14,9 +14,7 @@ from ._described_joint import DescribedJoint
 from ._errors import OutOfRangeError, UsageError, unknown
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
-from ._record import renamed
-from ._records import Caveat as Caveat  # as limits were pickled that had it from here
-from ._records import FeatureRecord, FeaturesRecord, LimitRecord, PartsRecord
+from ._records import FeatureRecord, LimitRecord
 from ._words import ContactKind, LimitReason, number
 
 
@@ -49,19 +47,8 @@ class ContactWitness:
     kind: ContactKind
 
 
-class OldNames:
-    """Names that limits had before they had those of the files."""
-
-    limit_deg: float
-
-    @property
-    def turned_deg(self) -> float:
-        """Deprecated: `limit_deg`, as the files call it."""
-        return renamed("turned_deg", "limit_deg", self.limit_deg)
-
-
 @dataclass(frozen=True, eq=False, repr=False)
-class Limit(OldNames):
+class Limit:
     """One end of a free rotation.
 
     Attributes
@@ -103,14 +90,7 @@ def _feature_of(record: FeatureRecord) -> Feature:
     return ("vertex", record.id) if record.kind == "vertex" else ("face", record.id)
 
 
-def _feature_said(feature: Feature, part: Optional[str]) -> dict[str, object]:
-    kind, *numbers = feature
-    said: dict[str, object] = {"kind": kind, "part": part}
-    said["vertices" if kind == "edge" else "id"] = numbers if kind == "edge" else numbers[0]
-    return said
-
-
-class MotionLimit(LimitRecord, OldNames):
+class MotionLimit(LimitRecord):
     __doc__ = (LimitRecord.__doc__ or "").replace("in the words of rom.json.", """by the keys of rom.json.
 
     And with meshes numbered as they were given: `motion`; `contact`, the features that meet, and `soft_contact`, those of a mesh called
@@ -119,7 +99,6 @@ class MotionLimit(LimitRecord, OldNames):
 
     motion: Motion
     soft_contact: Optional[ContactWitness] = None
-    guarantee: str = ""  # of limits that were pickled before there was one
 
     @property
     def contact(self) -> Optional[ContactWitness]:
@@ -127,11 +106,6 @@ class MotionLimit(LimitRecord, OldNames):
             return None
         return ContactWitness(_feature_of(self.features.fixed), _feature_of(self.features.mobile), self.contact_point_mm,
                               self.contact_point_mobile_mm, self.contact_kind)
-
-    @property
-    def angles_deg(self) -> Angles:
-        """Deprecated: `at_limit_deg`, as the files call it."""
-        return renamed("angles_deg", "at_limit_deg", self.at_limit_deg)
 
     @property
     def fixed_part(self) -> Optional[str]:
@@ -149,28 +123,8 @@ class MotionLimit(LimitRecord, OldNames):
     def soft_mobile_part(self) -> Optional[str]:
         return self.soft_contact_parts.mobile if self.soft_contact_parts else None
 
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        if "turned_deg" in state:
-            state = _renamed_state(dict(state))
-        vars(self).update(state)
-
     def __repr__(self) -> str:
         return f"MotionLimit({self.motion.name}: {self.limit_deg:.6g} deg, {self.reason})"
-
-
-def _renamed_state(old: dict[str, Any]) -> dict[str, Any]:
-    """The state of a limit that was pickled when it had names of its own, by the names of the files. What it did not hold it has not."""
-    contact, motion = old.pop("contact"), old["motion"]
-    fixed, mobile = old.pop("fixed_part"), old.pop("mobile_part")
-    soft = {body: old.pop(f"soft_{body}_part") for body in ("fixed", "mobile")}
-    state = {**old, "name": motion.name, "limit_deg": old.pop("turned_deg"), "at_limit_deg": old.pop("angles_deg"),
-             "range_deg": motion.range_deg, "start_deg": motion.start_deg,
-             "contact_kind": None if old["reason"] == "end_of_range" else contact.kind if contact else "unknown",
-             "soft_contact_parts": PartsRecord.of(soft) if old["soft_contact"] else None}
-    if contact:
-        state.update(contact_point_mm=contact.fixed_point, contact_point_mobile_mm=contact.mobile_point, features=FeaturesRecord.of({
-            "fixed": _feature_said(contact.fixed_feature, fixed), "mobile": _feature_said(contact.mobile_feature, mobile)}))
-    return {key: value for key, value in state.items() if key not in ("turned_deg", "angles_deg")}
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import is_dataclass
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, NoReturn, TypeVar, get_args, get_type_hints
 
@@ -18,12 +17,6 @@ if TYPE_CHECKING:
 
 AnyRecord = TypeVar("AnyRecord", bound="Record")
 Value = TypeVar("Value")
-
-
-def renamed(old: str, new: str, value: Value) -> Value:
-    """The value of a deprecated property."""
-    warnings.warn(f"{old} is called {new} now, as in the files", DeprecationWarning, stacklevel=3)
-    return value
 
 
 def _value_of(hint: Any, said: Any) -> Any:

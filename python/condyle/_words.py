@@ -65,7 +65,7 @@ StopForce = Literal["limit", "linear"]
 AngleUnit = Literal["degree", "radian"]
 ContactSide = Literal["superior", "anterior", "inferior", "posterior"]
 ContactKind = Literal["unknown", "bearing", "impingement", "cut", "soft"]
-Way = Literal["none", "radial", "flexion", "adduction", "internal_rotation", "nearest"]
+DepthKind = Literal["none", "radial", "flexion", "adduction", "internal_rotation", "nearest"]
 BalanceOutcome = Literal["balanced", "at_jump", "pulled_apart", "over_the_rim", "too_large", "unstable",
                          "free_direction"]
 ContactEndKind = Literal["exact", "bounded", "recording_begins", "recording_ends"]

@@ -129,7 +129,7 @@ TEST_F(SampleJointCommand, VerticesAreWrittenAsATableOnRequest) {
   const Json json = CommandTest::answer(std::string("depth sample/hip.toml --csv --out deep ") + deep);
   const std::vector<std::string> lines = lines_of(text_of("deep/mobile.csv"));
   EXPECT_TRUE(
-      lines[0].starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_way,nearest_distance_mm,"))
+      lines[0].starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_kind,nearest_distance_mm,"))
       << lines[0];
   const TriMesh posed_femur = io::read_mesh(folder / "deep/mobile.vtp").mesh;
   ASSERT_EQ(lines.size(), 1 + posed_femur.vertices.size());
@@ -223,7 +223,7 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
   for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"}) {
     const std::string text = text_of(name);
     for (const char* array :
-         {"depth_mm", "depth_is_reliable", "depth_way", "nearest_distance_mm", "radial_depth_mm",
+         {"depth_mm", "depth_is_reliable", "depth_kind", "nearest_distance_mm", "radial_depth_mm",
           "radial_gap_mm", "ray_to_normal_deg", "inside", "triangle", "winding", "in_contact"}) {
       EXPECT_TRUE(says(text, "Name=\"" + std::string(array) + "\"")) << name << " " << array;
     }

@@ -137,7 +137,7 @@ def test_depths_and_measures_of_many_poses_are_those_of_each(hip):
     for n in range(3):
         alone = hip.depths(poses[n])
         np.testing.assert_array_equal(depths[n].mobile.depth_mm, alone.mobile.depth_mm)
-        np.testing.assert_array_equal(depths[n].fixed.way, alone.fixed.way)
+        np.testing.assert_array_equal(depths[n].fixed.kind, alone.fixed.kind)
         assert measures[n].volume_mm3 == hip.contact_measures(poses[n]).volume_mm3
     assert depths[0].max_depth_mm == 0 < depths[1].max_depth_mm
     assert hip.depths(np.empty((0, 4, 4))) == []
@@ -220,7 +220,7 @@ def test_depths_and_measures_are_tables(coarse_bones):
     joint = condyle.Joint(*coarse_bones)
     depths = joint.depths({"flexion_deg": 140})
     table = depths.to_dataframe()
-    assert list(table.columns) == ["body", "vertex", "depth_mm", "way"] and len(table) == len(depths.mobile) + len(depths.fixed)
+    assert list(table.columns) == ["body", "vertex", "depth_mm", "kind"] and len(table) == len(depths.mobile) + len(depths.fixed)
     of_fixed = table[table.body == "fixed"]
     assert of_fixed.depth_mm.tolist() == depths.fixed.depth_mm.tolist() and of_fixed.vertex.tolist() == list(range(len(depths.fixed)))
     assert condyle.Depths(None, None).to_dataframe().empty

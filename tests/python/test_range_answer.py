@@ -65,19 +65,6 @@ def test_the_sample_hip(hip, hip_file):
     assert again[1] != rom.limits[1]
     for act in (lambda: setattr(rom.limits[0], "limit_deg", 0), lambda: delattr(rom.limits[0], "limit_deg")):
         refused(act, kind=AttributeError)
-    with pytest.warns(DeprecationWarning, match="limit_deg"):
-        assert rom.limits[0].turned_deg == rom.limits[0]["limit_deg"]
-    # As limits were pickled by their names of then, with the features as they were.
-    kept = ("motion", "reason", "soft_contact", "error_bound_deg", "bearing_contact_deg", "soft_contact_deg", "caveats")
-    for limit in rom.limits:
-        old = condyle.MotionLimit.__new__(condyle.MotionLimit)
-        old.__setstate__({**{key: getattr(limit, key) for key in kept}, "turned_deg": limit.limit_deg, "angles_deg": limit.at_limit_deg,
-                          "contact": limit.contact, "fixed_part": "socket", "mobile_part": None, "soft_fixed_part": None, "soft_mobile_part": None})
-        assert (old.limit_deg, old.at_limit_deg, old.name, old.contact_kind) == (limit.limit_deg, limit.at_limit_deg, limit.name, limit.contact_kind)
-        assert str(old.contact) == str(limit.contact) and old.fixed_part == (limit.contact and "socket") and old.mobile_part is None
-    for key in ("clock_hour", "guarantee"):  # pickled before there were such members
-        del vars(again[0])[key]
-    assert again[0].clock_hour is None and again[0].guarantee == ""
 
 
 @pytest.mark.filterwarnings("ignore::condyle.JointWarning", "ignore::condyle.JointRemark")

@@ -187,7 +187,7 @@ Json end_json(const MotionQuestion& question, const motion::ContactEnd& end, Con
   Json json{{"time_s", end.time_s},
             {"kind", name_of(end.kind, role)},
             {"uncertainty_s", is_known ? Json(end.uncertainty_s) : Json(nullptr)},
-            {"after_frame", end.sample},
+            {"sample", end.sample},
             {"turned_deg", end.turned.degrees()},
             {"point_mm", nullptr}};
   if (!end.contact) return json;

@@ -44,7 +44,7 @@ ColumnList depth_columns() {
   return {
       {"depth_in_contact", "", number_column, "1 where the bodies meet in the pose, else 0"},
       {"depth_mm", "mm", number_column, "of the deepest vertex of either body; empty where none is inside"},
-      {"depth_way", "", text_column, "along which way it is a depth: radial, or the arc of this angle"},
+      {"depth_kind", "", text_column, "along what it is a depth: radial, or the arc of this angle"},
       {"depth_volume_mm3", "mm^3", number_column,
        "of the space inside both; empty where a mesh is open or inside out"},
       {"depth_volume_error_mm3", "mm^3", number_column, "bound on what the volume is off by rounding"},
