@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -6,6 +7,7 @@
 #include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
+#include "interrupt.hpp"
 #include "io/mesh/vertex_marks.hpp"
 #include "io/result/resection_result.hpp"
 #include "joint_command.hpp"
@@ -46,14 +48,20 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
   request.bands = range.bands;
   request.confidence = confidence_of(options.cut, range.bands);
   request.curve_points = options.curve_points;
-  const ResectionAnswer answer =
-      answered(options, [&](const Control& control) { return answer_resection(loaded, request, control); });
+  request.keep_if_stopped = true;
+  const ResectionAnswer answer = answered(options, [&] {
+    return with_progress([&](const Control& control) { return answer_resection(loaded, request, control); },
+                         Writes::files);
+  });
   io::add_other_files(from, read);
   note_all(answer.notes);
   note_all(answer.limit_notes);
   const io::ResectionResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
   if (!options.out.empty()) say_written(io::write_resection(options.out, result));
   print(options.form == AnswerForm::json ? io::resection_json(result) : io::resection_text(result));
+  if (std::any_of(answer.notes.begin(), answer.notes.end(),
+                  [](const ResectionNote& note) { return note.code == ResectionNoteCode::stopped; }))
+    throw Interrupted("interrupted; the answer is what there was until then");
 }
 
 }  // namespace

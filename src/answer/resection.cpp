@@ -257,7 +257,7 @@ bool reach_share(const ResectionRequest& request, const motion::BandOptions& dis
   if (std::all_of(targets.begin(), targets.end(), [](const auto& target) { return target.blocked; }))
     return true;
   MarginSearch search(request, displaced, control, std::ref(cuts));
-  if (!search.add(answer.margin_mm, std::move(answer.resection))) return false;
+  if (!search.add(answer.margin_mm, plan::Resection(answer.resection))) return false;
   std::optional<double> margin_mm;
   for (const double share : {*request.confidence, other_confidence}) {
     if (margin_mm && share == *request.confidence) continue;
@@ -446,6 +446,8 @@ std::string_view name_of(ResectionNoteCode code) noexcept {
       return "sliding_surfaces";
     case ResectionNoteCode::more_than_must:
       return "more_than_must";
+    case ResectionNoteCode::stopped:
+      return "stopped";
     case ResectionNoteCode::finer_triangles:
       break;
   }
@@ -522,10 +524,17 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
   answer.margin_mm = asked.resection.margin_mm;
   answer.confidence = asked.confidence;
   answer.promises.resize(asked.resection.targets.size());
+  bool is_judged = true;
   if (asked.bands) {
+    ResectionAnswer judged = answer;
     const motion::BandOptions displaced = band_options(of, *asked.bands);
-    if (asked.confidence && !reach_share(asked, displaced, control, cuts, answer)) return std::nullopt;
-    if (!judge(at, asked, displaced, control, answer)) return std::nullopt;
+    is_judged = (!asked.confidence || reach_share(asked, displaced, control, cuts, judged)) &&
+                judge(at, asked, displaced, control, judged);
+    if (!is_judged && !asked.keep_if_stopped) return std::nullopt;
+    if (is_judged)
+      answer = std::move(judged);
+    else
+      answer.confidence.reset();
   }
   answer.before = range.limits(asked.motions);
   const motion::RangeOfMotion range_after(answer.resection.joint, asked.resection.range);
@@ -534,11 +543,21 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
     outcome.after = range_after.limit(outcome.target.motion);
   // Compared on the same triangles: what a measure takes of a surface depends a little on them.
   const Joint finer = with_finer_triangles(answer.resection);
-  if (at.is_hip() && at.kind != JointKind::hinge) {
+  if (is_judged && at.is_hip() && at.kind != JointKind::hinge) {
     answer.shape_before = measure::measure_hip(finer, of.measure_options());
     answer.shape_after = measure::measure_hip(answer.resection.joint, of.measure_options());
   }
-  if (asked.curve_points > 0 && !add_curve(asked, cuts, answer)) return std::nullopt;
+  const bool has_curve = is_judged && (asked.curve_points == 0 || add_curve(asked, cuts, answer));
+  if (!has_curve) {
+    if (!asked.keep_if_stopped) return std::nullopt;
+    answer.curve.clear();
+    answer.notes.push_back(
+        {ResectionNoteCode::stopped,
+         is_judged
+             ? "stopped while curves of volume were made: they are left out"
+             : "stopped: the cut is for the joint as given; varied joints, a margin for a share of them, "
+               "the shape of the hip and curves are left out"});
+  }
   note_targets(answer);
   take_gains(answer, finer, asked.resection.range, asked.motions);
   add_other_centre(at, range.bearing(), asked.resection.range, answer);

@@ -30,6 +30,18 @@ Ran run_well(const std::filesystem::path& folder, const std::string& arguments) 
   return ran;
 }
 
+Ran run_interrupted(const fs::path& folder, const std::string& arguments, const std::string& stage) {
+  const TemporaryFolder caught;
+  const std::string err = (caught / "err").string();
+  const std::string command = "cd '" + folder.string() + "' && { '" CONDYLE_COMMAND "' --threads 1 " +
+                              arguments + " >'" + (caught / "out").string() + "' 2>'" + err +
+                              "' & p=$!; while kill -0 $p 2>/dev/null && ! grep -qs '" + stage + "' '" + err +
+                              "'; do sleep 0.1; done; kill -TERM $p; wait $p; }";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, io::read_whole_file(caught / "out"),
+          io::read_whole_file(err)};
+}
+
 pid_t start_condyle(const std::filesystem::path& folder, const std::string& arguments,
                     const std::filesystem::path& err, const std::vector<int>& ignored) {
   std::fflush(nullptr);  // else the child would write it again, or into a file that is full

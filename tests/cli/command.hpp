@@ -31,6 +31,10 @@ Ran run_condyle(const std::filesystem::path& folder, const std::string& argument
 /// The same of a question that has an answer: anything but exit code 0 fails the test.
 Ran run_well(const std::filesystem::path& folder, const std::string& arguments);
 
+/// Runs the command on one thread and ends it by SIGTERM once its progress names this stage; SIGINT is ignored in the background of a shell.
+Ran run_interrupted(const std::filesystem::path& folder, const std::string& arguments,
+                    const std::string& stage);
+
 /// Starts `condyle ARGUMENTS` in a folder by itself, with these signals ignored by its parent; its notes and errors go into a file.
 pid_t start_condyle(const std::filesystem::path& folder, const std::string& arguments,
                     const std::filesystem::path& err, const std::vector<int>& ignored = {});

@@ -157,6 +157,24 @@ TEST_F(ResectCommand, SaysThatPosesOfTheMeshesAsGivenAreLeftOut) {
   EXPECT_TRUE(says(text_of("plan/resected.toml"), "# [recorded_motion] is left out"));
 }
 
+TEST_F(ResectCommand, StoppedGivesTheCutForTheJointAsGiven) {
+  const std::string reach = "--reach internal_rotation_at_90_flexion=45 --margin 0.3";
+  const Ran stopped =
+      run_interrupted(here, "resect hip.toml --json --out plan --band=5000 " + reach, "joints of the band");
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_TRUE(says(stopped.err, "condyle: interrupted; the answer is what there was until then\n"));
+  const Json json = Json::parse(stopped.out), whole = resected(reach + " --curve 0");
+  EXPECT_TRUE(has_note(json, "stopped", "resection_notes"));
+  EXPECT_FALSE(has_note(whole, "stopped", "resection_notes"));
+  EXPECT_TRUE(json["confidence"].is_null() && json["curve"].empty() && json["alternatives"].empty());
+  EXPECT_EQ(json["targets"], whole["targets"]);
+  EXPECT_EQ(json["limits"], whole["limits"]);
+  EXPECT_EQ(json["cuts"][0]["volume_mm3"], whole["cuts"][0]["volume_mm3"]);
+  EXPECT_EQ(json_of("plan/resection.json"), json);
+  EXPECT_TRUE(says(run_interrupted(here, "resect hip.toml --band=5000 " + reach, "joints of the band").out,
+                   "  stopped: the cut is for the joint as given"));
+}
+
 TEST_F(ResectCommand, NothingToDoIsAnAnswer) {
   const Json json = resected("--reach flexion=20 --out plan");
   EXPECT_TRUE(json["cuts"].empty());

@@ -270,20 +270,6 @@ TEST_F(RomCommand, BodiesInContactInTheReferencePoseAreExitCodeSixWithoutAnOptio
   EXPECT_FALSE(answer["caveats"].empty());
 }
 
-/// Runs the command on one thread and ends it by SIGTERM once it says how far its map is; SIGINT is ignored in the background of
-/// a shell.
-Ran run_interrupted(const fs::path& folder, const std::string& arguments) {
-  const TemporaryFolder caught;
-  const std::string err = (caught / "err").string();
-  const std::string command = "cd '" + folder.string() + "' && { '" CONDYLE_COMMAND "' --threads 1 " +
-                              arguments + " >'" + (caught / "out").string() + "' 2>'" + err +
-                              "' & p=$!; while kill -0 $p 2>/dev/null && ! grep -qs 'map points' '" + err +
-                              "'; do sleep 0.1; done; kill -TERM $p; wait $p; }";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, io::read_whole_file(caught / "out"),
-          io::read_whole_file(err)};
-}
-
 /// The last of the lines, without the progress before it.
 std::string last_line(const std::string& text) {
   return text.substr(text.rfind('\n', text.size() - 2) + 1);
@@ -292,7 +278,8 @@ std::string last_line(const std::string& text) {
 TEST_F(RomCommand, AnInterruptedMapLeavesNothingAndSaysSoInOneLine) {
   write_fine_meshes();
   for (const char* out : {"", " --out out/deeper"}) {
-    const Ran ran = run_interrupted(here, std::string("rom joint.toml --motion flexion") + out + long_map);
+    const Ran ran =
+        run_interrupted(here, std::string("rom joint.toml --motion flexion") + out + long_map, "map points");
     EXPECT_EQ(ran.exit_code, 130) << ran.err;
     EXPECT_EQ(ran.out, "");
     EXPECT_TRUE(is_one_error_line(last_line(ran.err))) << ran.err;

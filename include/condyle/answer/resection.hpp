@@ -30,6 +30,8 @@ struct ResectionRequest {
   std::optional<double> confidence = 0.5;
   /// Points of each target's curve of degrees against removed volume; 0 for none.
   std::size_t curve_points = 10;
+  /// Stopped once there is a cut for the joint as given, the answer is that cut, with a note that says what is left out.
+  bool keep_if_stopped = false;
 };
 
 enum class ResectionNoteCode : std::uint8_t {
@@ -46,6 +48,7 @@ enum class ResectionNoteCode : std::uint8_t {
   burr_meets_kept,  ///< The burr's ball would have to enter bone that stays.
   sliding_surfaces,  ///< The bodies slide on each other by nature, and no bearing surface is known: removed bone may belong to it.
   more_than_must,  ///< Much bone goes that no target needs: a depth, or counting whole triangles, cannot spare it.
+  stopped,  ///< It was stopped: a cut for the joint as given, that no varied joint was asked about, or a plan without curves.
   finer_triangles,  ///< A limit grows by the smaller triangles around a cut alone: fewer of them lie partly in the bearing ball.
 };
 
@@ -125,8 +128,8 @@ struct NamedReach {
 [[nodiscard]] std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
                                                            std::string_view text);
 
-/// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:
-/// "cuts", "joints of the band".
+/// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped, but for
+/// `keep_if_stopped`. Stages: "cuts", "joints of the band".
 ///
 /// A motion that the cut gives nothing ends after it where it did before. Throws as resect(), measure_hip() and limit_bands() do, and
 /// UsageError for a share outside its range. A second for each cut of a hip of 20,000 triangles: one, one for each point of a curve, and

@@ -255,6 +255,8 @@ std::string resection_text(const ResectionResult& result) {
   std::string text = fmt::format("{}: bone that must go, {} side{}\n", result.joint.name,
                                  name_of(result.joint.side), whose_text(result.joint));
   text += io::parameters_text(result.joint);
+  for (const ResectionNote& note : answer.notes)
+    if (note.code == ResectionNoteCode::stopped) text += wrapped(fmt::format("  {}\n", note.text));
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) text += target_lines(answer, i);
   for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);
   if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:.3g} mm\n", answer.margin_mm);
