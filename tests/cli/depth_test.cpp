@@ -128,8 +128,8 @@ TEST_F(SampleJointCommand, DepthLeadsWithTheReliableOne) {
 TEST_F(SampleJointCommand, VerticesAreWrittenAsATableOnRequest) {
   const Json json = CommandTest::answer(std::string("depth sample/hip.toml --csv --out deep ") + deep);
   const std::vector<std::string> lines = lines_of(text_of("deep/mobile.csv"));
-  EXPECT_TRUE(
-      lines[0].starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_kind,nearest_distance_mm,"))
+  EXPECT_TRUE(lines[0].starts_with(
+      "vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_kind,nearest_distance_mm,"))
       << lines[0];
   const TriMesh posed_femur = io::read_mesh(folder / "deep/mobile.vtp").mesh;
   ASSERT_EQ(lines.size(), 1 + posed_femur.vertices.size());

@@ -164,7 +164,7 @@ std::vector<MeshArray> arrays_of(const std::optional<radial::RadialResults>& res
     winding[i] = results->winding[i];
   }
   return {{"depth_mm", reliable->depth_mm},        {"depth_is_reliable", std::move(is_reliable)},
-          {"depth_kind", std::move(kind)},          io::nearest_array(nearest),
+          {"depth_kind", std::move(kind)},         io::nearest_array(nearest),
           {"radial_depth_mm", std::move(depth)},   {"radial_gap_mm", std::move(gap)},
           {"ray_to_normal_deg", std::move(angle)}, {"inside", std::move(inside)},
           {"triangle", std::move(triangle)},       {"winding", std::move(winding)}};
