@@ -148,11 +148,11 @@ def web_packages() -> list[dict]:
     return [found[name] for name in sorted(found)]
 
 
-def sbom_of(build: Path, programs: list[Path]) -> dict:
+def sbom_of(build: Path, programs: list[Path], name: str) -> dict:
     linked = debian_packages([path for program in programs for path in libraries_of(program)])
-    # A build with tests has objects that no artefact holds.
+    # A build has objects that one artefact holds and another does not, or none, as tests.
     folders = {f"{program.relative_to(build).parts[0]}/" if program.parent != build else "cli/" for program in programs} | {"src/"}
-    compiled_in = debian_packages(headers_of(build, tuple(folders) if (build / "tests").exists() else ("",)) + archives_of(build, programs))
+    compiled_in = debian_packages(headers_of(build, tuple(folders) if (build / "src").exists() else ("",)) + archives_of(build, programs))
     unknown = {path for program in programs for path in libraries_of(program)} - set(linked)
     if unknown:
         sys.exit(f"make_sbom.py: of no Debian package: {', '.join(sorted(unknown))}")
@@ -173,8 +173,8 @@ def sbom_of(build: Path, programs: list[Path]) -> dict:
         packages.append(package)
         relations.append(("SPDXRef-condyle", "CONTAINS", package["SPDXID"]))
     made = datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
-    return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"condyle-{own}",
-            "documentNamespace": f"urn:condyle:sbom:{own}:{made}",
+    return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": name,
+            "documentNamespace": f"urn:condyle:sbom:{name}:{made}",
             "creationInfo": {"created": made, "creators": ["Organization: The Condyle authors", "Tool: make_sbom.py"]},
             "packages": packages, "hasExtractedLicensingInfos": texts,
             "relationships": [{"spdxElementId": a, "relationshipType": kind, "relatedSpdxElement": b} for a, kind, b in relations]}
@@ -189,7 +189,7 @@ def main() -> None:
         programs = [path for path in (build / "condyle", *(build / "python/condyle").glob("_native*.so")) if path.exists()]
     out.parent.mkdir(parents=True, exist_ok=True)
     beside = out.with_name(out.name + ".part")
-    beside.write_text(json.dumps(sbom_of(build, programs), indent=1) + "\n")
+    beside.write_text(json.dumps(sbom_of(build, programs, out.name.removesuffix(".spdx.json")), indent=1) + "\n")
     beside.rename(out)
 
 
