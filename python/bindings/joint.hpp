@@ -32,7 +32,7 @@ struct JointHandle {
 /// One of the three angles, by its position.
 JointAngle angle_numbered(std::size_t number);
 /// The number of an angle, or the three numbers of an axis and, if there are more, three of a point.
-contact::ArcsAbout about_in(const py::object& given);
+contact::ArcsAbout about_in(const pybind11::object& given);
 
 /// The description of a joint from the arguments of condyle.Joint, whose words were checked in Python. Lengths of the
 /// dictionary are in mm.
