@@ -257,7 +257,7 @@ bool reach_share(const ResectionRequest& request, const motion::BandOptions& dis
   if (std::all_of(targets.begin(), targets.end(), [](const auto& target) { return target.blocked; }))
     return true;
   MarginSearch search(request, displaced, control, std::ref(cuts));
-  if (!search.add(answer.margin_mm, plan::Resection(answer.resection))) return false;
+  if (!search.add(answer.margin_mm, std::move(answer.resection))) return false;
   std::optional<double> margin_mm;
   for (const double share : {*request.confidence, other_confidence}) {
     if (margin_mm && share == *request.confidence) continue;
@@ -553,10 +553,9 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
     answer.curve.clear();
     answer.notes.push_back(
         {ResectionNoteCode::stopped,
-         is_judged
-             ? "stopped while curves of volume were made: they are left out"
-             : "stopped: the cut is for the joint as given; varied joints, a margin for a share of them, "
-               "the shape of the hip and curves are left out"});
+         is_judged ? "ended while curves of volume were made: they are left out"
+                   : "ended before varied joints were tried: the cut is for the joint as given; a margin "
+                     "for a share of them, the shape of the hip and curves are left out"});
   }
   note_targets(answer);
   take_gains(answer, finer, asked.resection.range, asked.motions);

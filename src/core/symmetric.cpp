@@ -15,7 +15,7 @@ Vec3 solved(const Eigen::Matrix3d& A, const Vec3& b) {
 }
 
 Vec3 shortest_solved(const Eigen::Matrix3d& A, const Vec3& b) {
-  // Of the largest eigenvalue: what a sum of some 90 products, of arms in one line, may round to.
+  // Where all arms lie in one line, a sum of some 90 products rounds to less than this share of the largest eigenvalue.
   constexpr double rounding = 1e-14;
   const auto [values, directions] = axes_of(A);
   Vec3 x = Vec3::Zero();

@@ -171,8 +171,11 @@ TEST_F(ResectCommand, StoppedGivesTheCutForTheJointAsGiven) {
   EXPECT_EQ(json["limits"], whole["limits"]);
   EXPECT_EQ(json["cuts"][0]["volume_mm3"], whole["cuts"][0]["volume_mm3"]);
   EXPECT_EQ(json_of("plan/resection.json"), json);
+  EXPECT_TRUE(
+      says(text_of("plan/limits.csv"),
+           "# note: stopped: ended before varied joints were tried: the cut is for the joint as given"));
   EXPECT_TRUE(says(run_interrupted(here, "resect hip.toml --band=5000 " + reach, "joints of the band").out,
-                   "  stopped: the cut is for the joint as given"));
+                   "  stopped: ended before varied joints were tried"));
 }
 
 TEST_F(ResectCommand, NothingToDoIsAnAnswer) {

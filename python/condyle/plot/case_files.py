@@ -35,7 +35,7 @@ def read_resection(path: PathLike) -> Dict[str, Any]:
         for each in plan["cuts"]:
             _check_texts(each["body"], each["name"])
             _check_numbers(each["volume_mm3"], each["area_mm2"], each["deepest_mm"], each["deepest_hour"] or 0)
-        for each in plan["measures"]:
+        for each in plan["measures"] or []:
             _check_texts(each["key"], each["unit"])
             _check_numbers(each["before"] or 0, each["after"] or 0)
         _check_numbers(plan["margin_mm"], *(plan["depth_by_half_hour_mm"] or []))

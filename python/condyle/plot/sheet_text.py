@@ -21,7 +21,7 @@ FREE = ("end_of_range", "translation_ends")
 """Ends at which nothing was met."""
 
 DECIDE = ("wrong_side", "unlikely_version", "swapped_bodies", "same_mesh", "units_disagree", "unlikely_size", "axes_turned", "axes_not_upright", "unlikely_joint", "target_blocked",
-          "band_not_reached", "neck_is_narrowed", "bones_touch", "pieces_left_out", "gap_in_bone", "interpolated_labels", "head_not_round", "two_voxel_sizes", "touching", "thick_slices", "cut_by_view", "flat_end", "limit_on_cut", "limit_on_part_cut", "limit_on_piece", "head_socket_apart", "centre_moves_limits", "centre_off_head", "no_head", "low_coverage", "inverted_mesh", "open_mesh", "doubled_triangles",
+          "stopped", "band_not_reached", "neck_is_narrowed", "bones_touch", "pieces_left_out", "gap_in_bone", "interpolated_labels", "head_not_round", "two_voxel_sizes", "touching", "thick_slices", "cut_by_view", "flat_end", "limit_on_cut", "limit_on_part_cut", "limit_on_piece", "head_socket_apart", "centre_moves_limits", "centre_off_head", "no_head", "low_coverage", "inverted_mesh", "open_mesh", "doubled_triangles",
           "self_crossings", "coarse_mesh", "bearing_is_swept", "burr_meets_kept", "narrow_bearing_margin", "alpha_stays", "more_than_must", "caveat")
 """Codes of notes that may change whether and how one cuts, the gravest first: at most five stand on the first page."""
 
@@ -215,7 +215,7 @@ def how_sure(case: Case, rows: List[Row]) -> str:
 
 def _changes(plan: Dict[str, Any]) -> Dict[str, Tuple[float, float]]:
     """Measures that print otherwise after the cut."""
-    known = {each["key"]: (each["before"], each["after"]) for each in plan["measures"] if None not in (each["before"], each["after"])}
+    known = {each["key"]: (each["before"], each["after"]) for each in plan["measures"] or [] if None not in (each["before"], each["after"])}
     return {key: (before, after) for key, (before, after) in known.items() if f"{before:.1f}" != f"{after:.1f}"}
 
 

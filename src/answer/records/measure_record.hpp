@@ -40,7 +40,7 @@ struct ShapeRecord {
 
 ShapeRecord shape_record(const MeasureAnswer& answer);
 
-/// Of a rim that there is.
+/// The member, if the rim has a point there.
 template <auto member>
 std::optional<double> if_there(const measure::RimHour& rim) {
   return rim.point ? std::optional(rim.*member) : std::nullopt;

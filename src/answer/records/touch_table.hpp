@@ -9,7 +9,7 @@
 
 namespace condyle {
 
-/// Of a penetration volume that there is.
+/// The member, if the penetration volume is known.
 template <auto member>
 std::optional<double> beside_volume(const TouchOverlap& overlap) {
   return overlap.volume_mm3 ? std::optional(overlap.*member) : std::nullopt;

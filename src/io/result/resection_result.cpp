@@ -256,7 +256,7 @@ std::string resection_text(const ResectionResult& result) {
                                  name_of(result.joint.side), whose_text(result.joint));
   text += io::parameters_text(result.joint);
   for (const ResectionNote& note : answer.notes)
-    if (note.code == ResectionNoteCode::stopped) text += wrapped(fmt::format("  {}\n", note.text));
+    if (note.code == ResectionNoteCode::stopped) text += wrapped(fmt::format("  stopped: {}\n", note.text));
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) text += target_lines(answer, i);
   for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);
   if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:.3g} mm\n", answer.margin_mm);
@@ -313,10 +313,13 @@ std::string resection_json(const ResectionResult& result) {
 
 std::string resection_limits_csv(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
-  std::string text = io::provenance_comments(result.provenance, result.notes) +
-                     "motion,before_deg,before_reason,after_deg,after_reason,reach_deg,gain_deg,"
-                     "before_p5_deg,before_median_deg,before_p95_deg,after_p5_deg,after_median_deg,after_p95_"
-                     "deg\n";
+  std::string text = io::provenance_comments(result.provenance, result.notes);
+  for (const ResectionNote& note : answer.notes)
+    text += fmt::format("# note: {}: {}\n", name_of(note.code), note.text);
+  text +=
+      "motion,before_deg,before_reason,after_deg,after_reason,reach_deg,gain_deg,"
+      "before_p5_deg,before_median_deg,before_p95_deg,after_p5_deg,after_median_deg,after_p95_"
+      "deg\n";
   for (std::size_t i = 0; i < answer.before.size(); ++i) {
     const motion::MotionLimit &a = answer.before[i], &b = answer.after[i];
     std::string reach;

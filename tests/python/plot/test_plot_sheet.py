@@ -273,7 +273,7 @@ def test_a_motion_that_gains_nothing_ends_where_it_did_and_columns_say_whose_num
 
 
 def test_columns_are_those_that_a_plan_without_limits_and_limits_without_a_plan_have(tmp_path):
-    answer = plan(BEFORE, AFTER, targets={"fadir": 36}, cuts=[], depth_by_half_hour_mm=None)
+    answer = plan(BEFORE, AFTER, targets={"fadir": 36}, cuts=[], depth_by_half_hour_mm=None, measures=None)
     said = texts_of(figures.sheet([folder(tmp_path, resection=answer) / "resection.json"]))
     assert "NOTHING TO REMOVE: targets are reached as it is" in said and "FADIR 20.0° 36° 36.0° contact" in said and "left side · a hip" in said
     said = texts_of(figures.sheet([folder(tmp_path, rom=rom(motion("flexion", 110, clock_hour=2), motion("extension", 20))) / "rom.json"]))
