@@ -98,6 +98,12 @@ struct DisplacedJoint::Parts {
       fixed_.emplace_back(joint, BodyRole::fixed, part.mesh, sigma, fixed_parts_);
     for (const PartOfMesh& part : parts.mobile)
       mobile_.emplace_back(joint, BodyRole::mobile, part.mesh, sigma, mobile_parts_);
+    met_.resize(impinging_.size() * groups_.size());
+  }
+
+  void learn() {
+    std::vector<DisplacedLimit> limits(motions_.size());
+    take_contacts({}, met_, limits);
   }
 
   /// Writes one outcome per motion. The frame G of the displaced joint lies at X_FG in F; with both bodies where the
@@ -105,15 +111,22 @@ struct DisplacedJoint::Parts {
   ///
   ///     X_FM = X_FG R(q) A^-1,   A = R(q0)^-1 X_FG R(q0), where G's mobile frame lies in M
   void limits(const Displacement& d, std::span<DisplacedLimit> out) const {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {motions_[i].range, LimitReason::end_of_range};
-    for (const PairOfParts& pair : impinging_) take_limits(d, fixed_[pair.fixed], mobile_[pair.mobile], out);
+    std::vector<LeavesAtEnds> met = met_;
+    take_contacts(d, met, out);
     if (!ligaments_.empty()) take_ligaments(d, out);
   }
 
  private:
-  /// Where these surfaces end a motion sooner than noted.
-  void take_limits(const Displacement& d, const Surface& of_fixed, const Surface& of_mobile,
-                   std::span<DisplacedLimit> out) const {
+  /// Where surfaces end a motion; by pair and group the leaves to compare first, and then those that met.
+  void take_contacts(const Displacement& d, std::span<LeavesAtEnds> met,
+                     std::span<DisplacedLimit> out) const {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {motions_[i].range, LimitReason::end_of_range};
+    for (std::size_t pair = 0; pair < impinging_.size(); ++pair)
+      take_contacts(d, pair, met.subspan(pair * groups_.size()), out);
+  }
+  void take_contacts(const Displacement& d, std::size_t pair, std::span<LeavesAtEnds> met,
+                     std::span<DisplacedLimit> out) const {
+    const Surface &of_fixed = fixed_[impinging_[pair].fixed], &of_mobile = mobile_[impinging_[pair].mobile];
     const Surface::Placed fixed = of_fixed.moved_by(d.fixed_surface, d.parameters),
                           mobile = of_mobile.moved_by(d.mobile_surface, d.parameters);
     // Only those that a motion turns or lets rest are made.
@@ -141,7 +154,8 @@ struct DisplacedJoint::Parts {
       if (!before || !before->shares_axis(group)) stationary.start_at(axis, Pose::Identity());
       before = &group;
       rotating.start_at(axis, turns_fixed ? inverted(X_FM) : X_FM);
-      const RotationLimits both = first_contact(stationary, rotating, group.range);
+      const RotationLimits both =
+          first_contact(stationary, rotating, group.range, &met[&group - groups_.data()]);
       for (const std::size_t i : group.motions) {
         const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
         if (end.turned < out[i].turned) out[i] = {end.turned, end.reason};
@@ -178,6 +192,7 @@ struct DisplacedJoint::Parts {
   LigamentLimits ligaments_;
   kinematics::DisplacedParts fixed_parts_, mobile_parts_;
   std::vector<Surface> fixed_, mobile_;
+  std::vector<LeavesAtEnds> met_;  ///< by the joint as given if that is learnt, by pair and group
 };
 
 DisplacedJoint::DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range,
@@ -188,6 +203,10 @@ DisplacedJoint::DisplacedJoint(const Joint& joint, std::span<const Motion> motio
                            range.bearing.rule),
           range.overlap.reference_pose, motions, sigma)) {}
 DisplacedJoint::~DisplacedJoint() = default;
+
+void DisplacedJoint::learn() {
+  parts_->learn();
+}
 
 void DisplacedJoint::limits(const Displacement& by, std::span<DisplacedLimit> out) const {
   parts_->limits(by, out);

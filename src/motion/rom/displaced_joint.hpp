@@ -22,6 +22,8 @@ class DisplacedJoint {
   DisplacedJoint(const DisplacedJoint&) = delete;
   DisplacedJoint& operator=(const DisplacedJoint&) = delete;
 
+  /// Finds where the joint as given ends its motions, to look there first: worth it for many limits, which it leaves as they are.
+  void learn();
   /// Writes one limit per motion. From any thread.
   void limits(const Displacement& by, std::span<DisplacedLimit> out) const;
 

@@ -58,7 +58,8 @@ std::optional<std::vector<LimitBand>> bands_of(const Joint& joint, std::span<con
                                                const RangeOptions& range, const BandOptions& options,
                                                const std::vector<Source>& sources, const Control& control) {
   check(options, motions, joint.kind);
-  const DisplacedJoint displaced(joint, motions, range, options.sigma);
+  DisplacedJoint displaced(joint, motions, range, options.sigma);
+  displaced.learn();
   const std::vector<Displacement> samples =
       motion::displacements(options, kinematics::uncertain_parameters(joint));
 

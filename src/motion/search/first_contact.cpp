@@ -36,6 +36,7 @@ struct Results {
   FeaturePair features;
   FeatureKind rotating_kind, stationary_kind;
   Index rotating, stationary;
+  MetLeaves leaves;  ///< that the features belong to
 };
 
 /// The feature in this slot, by its numbers in the mesh.
@@ -100,7 +101,8 @@ class Search {
     narrow_window();
   }
 
-  const auto& run() {
+  const auto& run(const std::optional<MetLeaves>& first = {}) {
+    if (first) compare_leaves({first->rotating, first->stationary, 0});
     push(0, 0);
     while (!open_.empty()) {
       const NodePair pair = open_.back();
@@ -109,7 +111,7 @@ class Search {
       const Node &m = rotating_.tree().nodes()[pair.rotating],
                  &f = stationary_.tree().nodes()[pair.stationary];
       if (m.is_leaf() && f.is_leaf()) {
-        compare_leaves(pair, m, f);
+        compare_leaves(pair);
       } else {
         const std::size_t before = open_.size();
         split(rotating_.tree(), stationary_.tree(), pair, [&](Index a, Index b) { push(a, b); });
@@ -137,8 +139,10 @@ class Search {
   /// A feature is in the box of the triangle that it belongs to: most triangles of a leaf are out of reach of
   /// the whole other leaf, and most pairs of the rest are out of each other's, so that few features are
   /// compared one by one.
-  void compare_leaves(const NodePair& pair, const Node& m, const Node& f) {
+  void compare_leaves(const NodePair& pair) {
     ++work_.leaf_pairs;
+    leaves_ = {pair.rotating, pair.stationary};
+    const Node &m = rotating_.tree().nodes()[pair.rotating], &f = stationary_.tree().nodes()[pair.stationary];
     const CylinderBox &m_leaf = rotating_.node_box(pair.rotating),
                       &f_leaf = stationary_.node_box(pair.stationary);
     const CylinderFeatures &mf = rotating_.leaf_features(pair.rotating),
@@ -195,7 +199,8 @@ class Search {
       if (angle > kept_.within()) continue;
       const FeaturePair features{feature(rotating_.tree(), rotating_kind, rotating),
                                  feature(stationary_.tree(), stationary_kind, stationary)};
-      kept_.add({angle, event.error, features, rotating_kind, stationary_kind, rotating, stationary});
+      kept_.add(
+          {angle, event.error, features, rotating_kind, stationary_kind, rotating, stationary, leaves_});
       narrow_window();
     }
   }
@@ -214,6 +219,7 @@ class Search {
   AngleWindow window_;
   SearchWork& work_;
   std::vector<NodePair> open_;
+  MetLeaves leaves_{};  ///< that are compared
 };
 
 Vec3 about_axis(const Vec3& p, double angle) {
@@ -257,12 +263,14 @@ Angle size_of(Angle range) noexcept {
 
 template <class Stationary>
 Limit limit_in(RotationSense sense, Angle range, Stationary& stationary, RotatingBody& rotating,
-               SearchWork& work) {
+               SearchWork& work, std::optional<MetLeaves>* leaves) {
   const Angle size = size_of(range);
   std::optional<Results> found;
   if (size > Angle())
-    found = Search<Stationary, FirstOfAll>(stationary, rotating, sense, size.radians(), work).run();
+    found = Search<Stationary, FirstOfAll>(stationary, rotating, sense, size.radians(), work)
+                .run(leaves ? *leaves : std::nullopt);
   if (!found) return {size};
+  if (leaves) *leaves = found->leaves;
   return {Angle::radians(found->angle), LimitReason::contact,
           witness(stationary, rotating, *found, sign_of(sense) * found->angle),
           Angle::radians(2 * found->error)};
@@ -274,7 +282,8 @@ RotationLimits in_contact_at_start(const std::optional<ContactWitness>& contact,
 }
 
 template <class Stationary>
-RotationLimits first_contact_of(Stationary& stationary, RotatingBody& rotating, const RotationRange& range) {
+RotationLimits first_contact_of(Stationary& stationary, RotatingBody& rotating, const RotationRange& range,
+                                LeavesAtEnds* leaves = nullptr) {
   assert(range.negative.radians() <= 0 && range.positive.radians() >= 0);
   assert(range.negative.radians() >= -two_pi && range.positive.radians() <= two_pi);
   SearchWork work;
@@ -283,8 +292,10 @@ RotationLimits first_contact_of(Stationary& stationary, RotatingBody& rotating, 
   if (const auto faces = faces_in_contact_at_start(stationary, rotating, work))
     return in_contact_at_start(faces, work);
   if (one_inside_other_at_start(stationary, rotating)) return in_contact_at_start(std::nullopt, work);
-  const Limit negative = limit_in(RotationSense::negative, range.negative, stationary, rotating, work);
-  const Limit positive = limit_in(RotationSense::positive, range.positive, stationary, rotating, work);
+  const Limit negative = limit_in(RotationSense::negative, range.negative, stationary, rotating, work,
+                                  leaves ? &leaves->negative : nullptr);
+  const Limit positive = limit_in(RotationSense::positive, range.positive, stationary, rotating, work,
+                                  leaves ? &leaves->positive : nullptr);
   return {negative, positive, work};
 }
 
@@ -295,8 +306,9 @@ RotationLimits first_contact(const RotationTable& stationary, RotatingBody& rota
   return first_contact_of(stationary, rotating, range);
 }
 
-RotationLimits first_contact(RotatingBody& stationary, RotatingBody& rotating, const RotationRange& range) {
-  return first_contact_of(stationary, rotating, range);
+RotationLimits first_contact(RotatingBody& stationary, RotatingBody& rotating, const RotationRange& range,
+                             LeavesAtEnds* leaves) {
+  return first_contact_of(stationary, rotating, range, leaves);
 }
 
 std::vector<FeatureContact> feature_contacts(const RotationTable& stationary, RotatingBody& rotating,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <optional>
 #include <vector>
 
 #include "condyle/first_contact.hpp"
@@ -21,9 +22,17 @@ struct FeaturePair {
 /// Deterministic: the same input gives the same bits on any thread.
 RotationLimits first_contact(const RotationTable& stationary, RotatingBody& rotating,
                              const RotationRange& range = {});
-/// The same for a body that rests for a few searches only, at the pose where it starts: made ready as far as they look.
+/// Leaves of the two trees in which contact was found.
+struct MetLeaves {
+  Index rotating, stationary;
+};
+struct LeavesAtEnds {
+  std::optional<MetLeaves> negative, positive;
+};
+/// The same for a body that rests for a few searches only, at the pose where it starts: made ready as far as they look. Leaves that met first in a
+/// search much like this one are compared first, which bounds it and changes nothing of what it finds; where it ends is written over them.
 RotationLimits first_contact(RotatingBody& stationary, RotatingBody& rotating,
-                             const RotationRange& range = {});
+                             const RotationRange& range = {}, LeavesAtEnds* leaves = nullptr);
 
 /// A feature of the rotating body where it first meets the stationary one.
 struct FeatureContact {
