@@ -1,4 +1,5 @@
 #include "condyle/fit.hpp"
+#include "kinematics/functional_centre.hpp"
 
 #include <pybind11/stl.h>
 
@@ -82,6 +83,49 @@ py::dict find_cylinder_in(const Mesh& mesh, double smallest_radius, double large
   return fit_dict(without_lock([&] { return find_cylinder(mesh, search); }));
 }
 
+/// `find` of the poses that are no gaps.
+template <class Find>
+auto found_of(const Find& find, const py::object& given) {
+  std::vector<Pose> poses;
+  for (const auto& pose : poses_with_gaps_in(given, "poses"))
+    if (pose) poses.push_back(*pose);
+  return without_lock([&] { return find(poses); });
+}
+
+template <class Found>
+py::dict dict_of_turning(const Found& found) {
+  py::dict dict;
+  dict["about_axis_deg"] = found.turning.about_axis.degrees();
+  dict["off_axis_deg"] = found.turning.off_axis.degrees();
+  dict["residual_mm"] = found.residual_mm;
+  dict["poses"] = found.poses;
+  return dict;
+}
+
+py::dict functional_centre_of(const py::object& given) {
+  const kinematics::FunctionalCentre found =
+      found_of([](const std::vector<Pose>& poses) { return kinematics::functional_centre(poses); }, given);
+  py::dict dict = dict_of_turning(found);
+  dict["in_fixed"] = array_of(found.in_fixed);
+  dict["in_mobile"] = array_of(found.in_mobile);
+  dict["centre_bound_mm"] = found.centre_bound_mm;
+  dict["sd_mm"] = found.sd_mm;
+  return dict;
+}
+
+py::dict functional_axis_of(const py::object& given) {
+  const kinematics::FunctionalAxis found =
+      found_of([](const std::vector<Pose>& poses) { return kinematics::functional_axis(poses); }, given);
+  py::dict dict = dict_of_turning(found);
+  dict["point_in_fixed"] = array_of(found.in_fixed.point);
+  dict["direction_in_fixed"] = array_of(found.in_fixed.direction);
+  dict["point_in_mobile"] = array_of(found.in_mobile.point);
+  dict["direction_in_mobile"] = array_of(found.in_mobile.direction);
+  dict["direction_bound_deg"] = found.direction_bound.degrees();
+  dict["axis_bound_mm"] = found.axis_bound_mm;
+  return dict;
+}
+
 }  // namespace
 
 void bind_fit(py::module_& module) {
@@ -89,6 +133,8 @@ void bind_fit(py::module_& module) {
   module.def("find_sphere", &find_in);
   module.def("fit_cylinder", &fit_cylinder_to);
   module.def("find_cylinder", &find_cylinder_in);
+  module.def("functional_centre", &functional_centre_of);
+  module.def("functional_axis", &functional_axis_of);
 }
 
 }  // namespace condyle::python

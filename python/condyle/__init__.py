@@ -18,6 +18,7 @@ from ._errors import CondyleError, FileError, JointRemark, JointWarning, MeshErr
 from ._errors import UnknownNameError, UsageError
 from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
+from ._functional_centre import FunctionalAxis, FunctionalCentre, functional_axis, functional_centre
 from ._gaps import DEPTH_KINDS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
 from ._impingement_zone import BodyZone, ImpingementZone
 from ._implant import REVERSE_SHOULDER_SIZES, SampleImplant, sample_replacement
@@ -62,7 +63,7 @@ __all__ = [
     "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "DEPTH_KINDS", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
-    "FittedSphere", "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "ImplantPair", "Joint", "JointContact", "JointMotion", "Ligament", "LigamentStates", "LigamentWrap", "JointNote", "PartParameter", "ZeroPose",
+    "FittedSphere", "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "FunctionalAxis", "FunctionalCentre", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "ImplantPair", "Joint", "JointContact", "JointMotion", "Ligament", "LigamentStates", "LigamentWrap", "JointNote", "PartParameter", "ZeroPose",
     "JointProposal", "JointRemark", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "LimitBands", "LivingLimit", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionArc", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NearestLimit", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
@@ -70,7 +71,7 @@ __all__ = [
     "RangeOfMotion", "Record", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
     "SafeInterval", "SampleHip", "SampleImplant", "ScrewStep", "SlideRecord", "SoftTissueGap", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TouchRecord", "TriMesh", "TurnRecord",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexForces", "VertexGaps", "VertexStiffness", "VerticesInside", "__version__",
-    "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
+    "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere", "functional_axis", "functional_centre",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",
     "read_motion_table", "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort",
     "sample_hip", "sample_replacement", "sample_reverse_shoulder", "slide", "surface", "thickness_to", "touch", "turn", "write_mesh",

@@ -1,9 +1,13 @@
+#include "core/formatted.hpp"
+#include "core/rotation_about.hpp"
 #include "motion_scene.hpp"
 
 /// Further contents of answers on recorded motions, beside their curves.
 
 namespace condyle::test {
 namespace {
+
+using core::formatted;
 
 TEST_F(Motion, FramesThatTheReachCutsOffAreCounted) {
   write("lower.csv", "time,y_mm\n0,-0.25\n0.1,-0.45\n0.2,-0.6\n");
@@ -53,6 +57,56 @@ TEST_F(Motion, AMeasuredKneeIsWhereItsReadmeSays) {
       {"flexion_deg", 41.61138}, {"adduction_deg", 1.66967}, {"internal_rotation_deg", -1.78322}};
   for (const auto& [name, expected] : known)
     EXPECT_NEAR(value(name), expected, std::string_view(name).ends_with("_mm") ? 0.001 : 0.01) << name;
+}
+
+/// A living knee turns about the cylinder of its condyles, as far as either is known.
+TEST_F(Motion, AMeasuredKneeTurnsAboutItsCondyles) {
+  FOUND_OR_SKIP(data, shared_data());
+  const std::string bones = fs::absolute(*data / "knee_lenhart2015_right").string(),
+                    motion = " --from-motion " + fs::absolute(*data / "motion_mri_knee").string() +
+                             "/passive_body_transformations.sto";
+  done("init " + bones + "/femur_bone.ply " + bones +
+       "/tibia_bone.ply --joint knee --side right --out k.toml");
+  write("knee.toml", text_of("k.toml") +
+                         "\n[recorded_motion]\nfixed_body = \"femur_distal_r\"\nmobile_body = "
+                         "\"tibia_proximal_r\"\nunits = \"m\"\n");
+  const Json by_motion = answer("frame knee.toml" + motion)["by_motion"];
+  EXPECT_EQ(by_motion["poses"], 60);
+  EXPECT_NEAR(by_motion["from_joint_axis_deg"].get<double>(), 0, 4);
+  EXPECT_NEAR(by_motion["from_joint_centre_mm"].get<double>(), 0, 4);
+  EXPECT_TRUE(says(done("frame knee.toml" + motion).out, "promises 48 rows and the file has 60"));
+  // Columns of coordinates turn about the joint's own centre.
+  expect_refused(3, "frame k.toml" + motion, "no poses of both bodies");
+}
+
+/// The ball of a joint in centimetres turns about (0.1, 0.2, -0.1) cm.
+TEST_F(Motion, ACentreByMotionIsInTheUnitOfTheJointFile) {
+  std::string ball = joint("ball", "cup.ply", "ball.ply",
+                           "[recorded_motion]\nfixed_body = \"p\"\nmobile_body = \"f\"\nunits = \"cm\"\n");
+  ball.replace(ball.find("units = \"mm\""), 12, "units = \"cm\"");
+  write("ball.toml", ball);
+  const auto table = [&](double off_axis) {
+    std::string text = "time";
+    for (const char body : {'p', 'f'})
+      for (int k = 0; k < 16; ++k) text += formatted(",%c_T%d%d", body, k / 4 + 1, k % 4 + 1);
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 turn(0.5 * std::sin(0.3 * i), off_axis * std::sin(0.7 * i), off_axis * std::cos(0.9 * i));
+      Pose X = core::moved_by(Pose::Identity(), Vec3::Zero(), turn);
+      const Vec3 centre(0.1, 0.2, -0.1);
+      X.translation() = centre - X.linear() * centre;
+      text += formatted("\n%d,1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1", i);
+      for (int k = 0; k < 16; ++k) text += formatted(",%.17g", X.matrix()(k / 4, k % 4));
+    }
+    return text + "\n";
+  };
+  write("turns.csv", table(0.3));
+  const Json found = answer("frame ball.toml --from-motion turns.csv")["by_motion"];
+  EXPECT_NEAR(found["centre_mm"][1].get<double>(), 2, 1e-9);
+  EXPECT_NEAR(found["from_joint_centre_mm"].get<double>(), std::sqrt(6.0), 1e-9);
+  EXPECT_NEAR(found["apart_as_given_mm"].get<double>(), 0, 1e-9);
+  EXPECT_TRUE(says(done("frame ball.toml --from-motion turns.csv").out, "frame.centre = [0.1, 0.2, -0.1]"));
+  write("turns.csv", table(0.02));
+  expect_refused(4, "frame ball.toml --from-motion turns.csv", "turns.csv: poses: they turn by 2");
 }
 
 TEST_F(Motion, LoadReportsTheMomentOnTheBodyThatTheJointFileNames) {

@@ -7,6 +7,7 @@
 
 #include "condyle/io/pose_text.hpp"
 #include "core/rounded.hpp"
+#include "core/trigonometry.hpp"
 #include "io/file/shown_point.hpp"
 #include "io/result/json.hpp"
 #include "io/result/movement_words.hpp"
@@ -18,6 +19,9 @@ namespace condyle::io {
 namespace {
 
 using io::Json;
+
+constexpr const char* said_of_skin =
+    "    markers on skin slide over bone: what moves with the joint is in no residual and no bound\n";
 
 /// The frame's axes by their anatomical names.
 std::array<std::pair<const char*, Vec3>, 3> axes_of(const Pose& X_WF) {
@@ -117,9 +121,95 @@ PoseDegrees reference_pose_of(const JointReport& report) {
           translation};
 }
 
+/// How far the mobile body's point lies from the fixed one's where the bones are given.
+double apart_as_given_mm(const LoadedJoint& loaded, const kinematics::FunctionalCentre& found) {
+  const auto& [angles, translation] = loaded.report.placement.reference_pose;
+  Pose X_FM = pose_at(loaded.joint.coordinates(), angles);
+  X_FM.translation() = translation;
+  return (X_FM * found.in_mobile - found.in_fixed).norm();
+}
+
+/// Of an axis of the fixed body: its turn from the joint's first axis, and how far the joint's centre lies from it.
+std::pair<Angle, double> from_joint_axis(const LoadedJoint& loaded, const kinematics::AxisInBody& axis) {
+  const Vec3 first = axis_of(JointAngle::flexion, loaded.joint.coordinates(), {});
+  return {Angle::radians(
+              core::arctangent(first.cross(axis.direction).norm(), std::abs(first.dot(axis.direction)))),
+          axis.point.cross(axis.direction).norm()};
+}
+
+std::string text_of(const LoadedJoint& loaded, const FunctionalFrame& by_motion) {
+  const Pose& X_WF = loaded.report.placement.X_WF;
+  const auto head = [&](const auto& found) {
+    return fmt::format(
+        "  by motion, {} poses of {}, which turn by {:.1f} deg about one axis and {:.1f} off it:\n",
+        found.poses, by_motion.path.filename().string(), found.turning.about_axis.degrees(),
+        found.turning.off_axis.degrees());
+  };
+  const auto prepared = [&] {
+    std::string lines;
+    for (const std::string& note : by_motion.processing) lines += fmt::format("    prepared {}\n", note);
+    return lines;
+  };
+  if (const auto* centre = std::get_if<kinematics::FunctionalCentre>(&by_motion.found)) {
+    const Vec3 in_meshes = X_WF * centre->in_fixed;
+    const double per_mm = 1 / mm_per(loaded.report.file.joint.units);
+    return head(*centre) +
+           fmt::format(
+               "    centre {} mm in the frame of the meshes, {:.2f} mm from the one above; 95 % within "
+               "{:.2f} mm\n    residual {:.2f} mm; the bones as given have it {:.2f} mm apart\n    for the "
+               "joint file: frame.centre = [{:.6g}, {:.6g}, {:.6g}], uncertainty.centre = {:.3g}\n",
+               shown(in_meshes), centre->in_fixed.norm(), centre->centre_bound_mm, centre->residual_mm,
+               apart_as_given_mm(loaded, *centre), per_mm * in_meshes.x(), per_mm * in_meshes.y(),
+               per_mm * in_meshes.z(), per_mm * centre->sd_mm) +
+           said_of_skin + prepared();
+  }
+  const auto& axis = std::get<kinematics::FunctionalAxis>(by_motion.found);
+  const auto [turn, beside_mm] = from_joint_axis(loaded, axis.in_fixed);
+  return head(axis) +
+         fmt::format(
+             "    axis through {} mm along {} in the frame of the meshes\n    {:.1f} deg from the joint's "
+             "first "
+             "axis, {:.2f} mm from its centre; 95 % within {:.1f} deg and {:.2f} mm; residual {:.2f} mm\n",
+             shown(X_WF * axis.in_fixed.point), shown(X_WF.linear() * axis.in_fixed.direction),
+             turn.degrees(), beside_mm, axis.direction_bound.degrees(), axis.axis_bound_mm,
+             axis.residual_mm) +
+         said_of_skin + prepared();
+}
+
+Json json_of(const LoadedJoint& loaded, const FunctionalFrame& by_motion) {
+  const Pose& X_WF = loaded.report.placement.X_WF;
+  Json json{{"file", by_motion.path.string()}};
+  const auto add = [&](const auto& found) {
+    json["poses"] = found.poses;
+    json["turning_deg"] = {{"about_axis", found.turning.about_axis.degrees()},
+                           {"off_axis", found.turning.off_axis.degrees()}};
+    json["residual_mm"] = found.residual_mm;
+  };
+  if (const auto* centre = std::get_if<kinematics::FunctionalCentre>(&by_motion.found)) {
+    add(*centre);
+    json["centre_mm"] = io::numbers(X_WF * centre->in_fixed);
+    json["from_joint_centre_mm"] = centre->in_fixed.norm();
+    json["centre_bound_mm"] = centre->centre_bound_mm;
+    json["sd_mm"] = centre->sd_mm;
+    json["apart_as_given_mm"] = apart_as_given_mm(loaded, *centre);
+  } else {
+    const auto& axis = std::get<kinematics::FunctionalAxis>(by_motion.found);
+    const auto [turn, beside_mm] = from_joint_axis(loaded, axis.in_fixed);
+    add(axis);
+    json["point_mm"] = io::numbers(X_WF * axis.in_fixed.point);
+    json["direction"] = io::numbers(Vec3(X_WF.linear() * axis.in_fixed.direction));
+    json["from_joint_axis_deg"] = turn.degrees();
+    json["from_joint_centre_mm"] = beside_mm;
+    json["direction_bound_deg"] = axis.direction_bound.degrees();
+    json["axis_bound_mm"] = axis.axis_bound_mm;
+  }
+  json["processing"] = by_motion.processing;
+  return json;
+}
+
 }  // namespace
 
-std::string to_text(const LoadedJoint& loaded) {
+std::string to_text(const LoadedJoint& loaded, const FunctionalFrame* by_motion) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
   std::string out = fmt::format("{}: {} joint{}, {} side{}\n", joint.name, name_of(joint.kind),
@@ -144,10 +234,11 @@ std::string to_text(const LoadedJoint& loaded) {
   out += text_of("fixed", joint.fixed, report.fixed, placement.fixed.bounds) +
          text_of("mobile", joint.mobile, report.mobile, placement.mobile.bounds);
   for (const std::string& note : report.processing) out += fmt::format("  {:<8} {}\n", "prepared", note);
-  return out;
+  return by_motion ? out + text_of(loaded, *by_motion) : out;
 }
 
-std::string frame_json(const LoadedJoint& loaded, std::span<const JointNote> notes, const Provenance* from) {
+std::string frame_json(const LoadedJoint& loaded, std::span<const JointNote> notes, const Provenance* from,
+                       const FunctionalFrame* by_motion) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
   Json out{{"file", report.file.path.string()},
@@ -166,6 +257,7 @@ std::string frame_json(const LoadedJoint& loaded, std::span<const JointNote> not
   out["fit"] = placement.sphere     ? json_of(*placement.sphere)
                : placement.cylinder ? json_of(*placement.cylinder, placement.axis_rotation)
                                     : Json();
+  if (by_motion) out["by_motion"] = json_of(loaded, *by_motion);
   out["fixed"] = json_of(joint.fixed, report.fixed, placement.fixed.bounds);
   out["mobile"] = json_of(joint.mobile, report.mobile, placement.mobile.bounds);
   out["processing"] = report.processing;
