@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/control.hpp"
@@ -13,16 +15,28 @@
 
 namespace condyle::motion {
 
+/// Where surfaces come from, and how far such surfaces were found to be off.
+struct SurfaceOrigin {
+  std::string_view name;  ///< as in files: "ct"
+  double sd_mm;           ///< taken for the standard deviation over a whole bone
+  std::string_view what;  ///< "CT segmented by people"
+  std::string_view source;
+};
+/// All that have a source. docs/range-of-motion.md.
+[[nodiscard]] std::span<const SurfaceOrigin> surface_origins() noexcept;
+
 /// Standard deviations, each normally distributed and independent of the others.
 struct Uncertainty {
   double centre_mm = 0.5;          ///< of each coordinate of the joint centre
   Angle axes = Angle::degrees(1);  ///< of the rotation of the joint frame about each of its axes
   /// Standard deviation of the surface along its normals, one value over a whole bone: a segmentation takes too much
-  /// everywhere or too little everywhere.
+  /// everywhere or too little everywhere. As it stands here it is assumed.
   double surface_mm = 0.25;
-  /// If above 0, a body whose image is known has this in place of surface_mm: in widths of a voxel along the normal. It covers what
-  /// the grid leaves open, and nothing of the segmentation's own error. docs/mathematics/09-label-maps.md.
+  /// If above 0, of a body whose image is known, in widths of a voxel along the normal: it covers what the grid leaves open, and nothing of
+  /// the segmentation's own error, which surface_mm is only if surface_from has it. docs/mathematics/09-label-maps.md.
   double surface_voxels = 0.25;
+  /// The name of the origin that surface_mm is of; empty if it is stated or assumed. Then the grid's part is added, squared.
+  std::string surface_from = {};
 
   /// Whether the body's surface is moved by a share of a voxel.
   [[nodiscard]] bool is_by_voxels(const Body& body) const noexcept {

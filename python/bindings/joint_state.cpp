@@ -47,12 +47,11 @@ void members(T& value, const Each& each) {
                                  Person>) {
     auto& [a, b, c] = value;
     each(a, b, c);
-  } else if constexpr (is_one_of<Struct, SphereFit, PelvisLandmarks, io::PoseDegrees, motion::Uncertainty,
-                                 DescribedLigament>) {
+  } else if constexpr (is_one_of<Struct, SphereFit, PelvisLandmarks, io::PoseDegrees, DescribedLigament>) {
     auto& [a, b, c, d] = value;
     each(a, b, c, d);
   } else if constexpr (is_one_of<Struct, JointImplant, RevolvedPair, io::BodyEntry, motion::Motion,
-                                 io::JointReport>) {
+                                 motion::Uncertainty, io::JointReport>) {
     auto& [a, b, c, d, e] = value;
     each(a, b, c, d, e);
   } else if constexpr (is_one_of<Struct, Body>) {

@@ -24,7 +24,8 @@ motion::BandOptions band_options(const Case& joint, const BandRequest& request) 
   motion::Uncertainty sigma = joint.uncertainty;
   if (request.centre_mm) sigma.centre_mm = *request.centre_mm;
   if (request.axes_deg) sigma.axes = Angle::degrees(*request.axes_deg);
-  if (request.surface_mm) sigma.surface_mm = *request.surface_mm, sigma.surface_voxels = 0;
+  if (request.surface_mm)
+    sigma.surface_mm = *request.surface_mm, sigma.surface_voxels = 0, sigma.surface_from.clear();
   return {.sigma = sigma, .samples = request.samples, .seed = request.seed.value_or(joint.band_seed)};
 }
 

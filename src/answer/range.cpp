@@ -76,7 +76,8 @@ bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const m
     if (!bands) return false;
     answer.bands = std::move(*bands);
     const motion::Uncertainty& sigma = answer.band_options.sigma;
-    if (sigma.is_by_voxels(answer.joint.fixed) || sigma.is_by_voxels(answer.joint.mobile))
+    if (sigma.surface_from.empty() &&
+        (sigma.is_by_voxels(answer.joint.fixed) || sigma.is_by_voxels(answer.joint.mobile)))
       answer.caveats.push_back(
           core::formatted("the band takes %g voxels along the normal as the standard deviation of surfaces "
                           "from label maps: the grid's part, not the error of the segmentation",

@@ -32,6 +32,15 @@ TEST_F(LabelMaps, BecomeJointsWithLimits) {
     says_whose_part |=
         caveat.get<std::string>().find("not the error of the segmentation") != std::string::npos;
   EXPECT_TRUE(says_whose_part);
+  write("right/ct.toml", text_of("right/hip.toml") + "\n[uncertainty]\nsurface = \"ct\"\n");
+  const Json ct = answer("rom right/ct.toml --band=20");
+  EXPECT_EQ(ct["band"]["sigma"]["surface_from"], "ct");
+  EXPECT_EQ(ct["band"]["sigma"]["surface_mm"], 0.84);
+  EXPECT_EQ(ct["band"]["sigma"]["grid_voxels"], 0.25);
+  EXPECT_GT(ct["motions"][10]["band"]["width_from_deg"]["surface"],
+            image["motions"][10]["band"]["width_from_deg"]["surface"]);
+  EXPECT_TRUE(says(done("rom right/ct.toml --band=20").out, "Soodmand 2018"));
+  EXPECT_TRUE(says(done("rom hip.toml --band=20").out, "surfaces 0.25 mm (assumed)"));
   EXPECT_EQ(
       answer("rom right/hip.toml --band=20 --sigma-surface 0.1")["band"]["sigma"].count("surface_voxels"),
       0u);

@@ -351,6 +351,13 @@ TEST_F(ReadJoint, UncertaintyIsReadWithItsSeed) {
   EXPECT_EQ(file.uncertainty.axes, Angle::degrees(2));
   EXPECT_EQ(file.uncertainty.surface_mm, 0);
   EXPECT_EQ(file.band_seed, 42u);
+  const motion::Uncertainty ct = read(plain + "[uncertainty]\nsurface = \"ct\"\n").report.file.uncertainty;
+  EXPECT_EQ(ct.surface_from, "ct");
+  EXPECT_EQ(ct.surface_mm, 0.84);
+  EXPECT_EQ(ct.surface_voxels, 0.25) << "the grid's part is added";
+  EXPECT_EQ(refusal(plain + "[uncertainty]\nsurface = \"CT\"\n"),
+            "line 17: uncertainty.surface: a number, or where surfaces come from: ct, ct_network, mr, "
+            "radiographs, design");
   EXPECT_EQ(refusal(plain + "[uncertainty]\nseed = -1\n"), "line 17: uncertainty.seed: must be 0 or more");
   EXPECT_EQ(refusal(plain + "[uncertainty]\nseed = 1.5\n"),
             "line 17: uncertainty.seed: must be a whole number, not a number");

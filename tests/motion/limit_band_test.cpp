@@ -214,5 +214,29 @@ TEST(RealHipBands, AgreeWithAnIndependentRun) {
   }
 }
 
+/// A quarter of a voxel of 2 mm is 0.5 mm: beside 1.2 mm of the segmentation 1.3.
+TEST(MovableSurface, AddsTheGridsPartSquaredToThatOfAnOrigin) {
+  Body body{"ball", Mesh(test::sphere(Vec3::Zero(), 10, 2))};
+  body.image = BodyImage{2 * Eigen::Matrix3d::Identity(), {}};
+  const auto moved_by = [&](const Uncertainty& sigma) {
+    const Points moved = *MovableSurface(body, sigma).moved_by(1);
+    double farthest = 0;
+    for (Index v = 0; v < moved.size(); ++v)
+      farthest = std::max(farthest, (moved[v] - body.mesh.vertices()[v]).norm());
+    return farthest;
+  };
+  const double of_grid = moved_by({.surface_mm = 1.2}),
+               of_both = moved_by({.surface_mm = 1.2, .surface_from = "ct"});
+  EXPECT_GT(of_grid, 0.4);
+  EXPECT_NEAR(of_both, std::hypot(of_grid, 1.2), 1e-12);
+}
+
+TEST(SurfaceOrigins, HaveASource) {
+  for (const SurfaceOrigin& origin : surface_origins()) {
+    EXPECT_GE(origin.sd_mm, 0);
+    EXPECT_FALSE(origin.source.empty()) << origin.name;
+  }
+}
+
 }  // namespace
 }  // namespace condyle::motion

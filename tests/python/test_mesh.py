@@ -175,6 +175,22 @@ def test_a_cylinder_is_found_and_fitted_where_it_is():
     refused(lambda: condyle.fit_cylinder(points, [0, 0, 0], [0, 0, 0], 10), "direction")
 
 
+def test_a_centre_and_an_axis_are_found_of_poses():
+    turn = np.linspace(0, 6, 40)
+    joint = condyle.Joint(*condyle.sample_hip())
+    poses = joint.pose(flexion_deg=30 * np.sin(turn), adduction_deg=20 * np.sin(2 * turn), internal_rotation_deg=20 * np.sin(3 * turn))
+    moved = np.eye(4)
+    moved[:3, 3] = [1, 2, 3]
+    with_gaps = moved @ np.concatenate([poses, np.full((2, 4, 4), np.nan)])
+    found = condyle.functional_centre(with_gaps)
+    np.testing.assert_allclose(found.in_fixed, [1, 2, 3], atol=1e-9)
+    np.testing.assert_allclose(found.in_mobile, 0, atol=1e-9)
+    assert found.poses == 40 and found.residual_mm < 1e-9
+    refused(lambda: condyle.functional_centre(joint.pose(flexion_deg=turn)), "off it", kind=condyle.MeshError)
+    refused(lambda: condyle.functional_axis(poses), "no one axis", kind=condyle.MeshError)
+    refused(lambda: condyle.functional_axis(poses[:5]), "there are 5", kind=condyle.MeshError)
+
+
 def test_the_head_of_the_sample_femur_is_found():
     fit = condyle.find_sphere(condyle.sample_hip(head_radius_mm=22).femur)
     # A vertex of the mesh lies on the head to rounding, the fit's patch may reach a little past it.

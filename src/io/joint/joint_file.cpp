@@ -432,7 +432,18 @@ void read_uncertainty(TomlTable& file, const Lengths& lengths, JointFile& out) {
   auto table = file.table("uncertainty");
   if (!table) return;
   if (table->has("centre")) sigma.centre_mm = lengths.not_negative(*table, "centre");
-  if (table->has("surface")) {
+  if (table->is_text("surface")) {
+    sigma.surface_from = *table->text("surface");
+    const auto origins = motion::surface_origins();
+    const auto known = std::find_if(origins.begin(), origins.end(),
+                                    [&](const auto& origin) { return origin.name == sigma.surface_from; });
+    if (known == origins.end()) {
+      std::string names;
+      for (const auto& origin : origins) names += (names.empty() ? "" : ", ") + std::string(origin.name);
+      table->fail("surface", fmt::format("a number, or where surfaces come from: {}", names));
+    }
+    sigma.surface_mm = known->sd_mm;
+  } else if (table->has("surface")) {
     sigma.surface_mm = lengths.not_negative(*table, "surface");
     sigma.surface_voxels = 0;
   }

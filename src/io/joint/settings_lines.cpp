@@ -26,7 +26,10 @@ void add_uncertainty(ProposalLines& lines, const motion::Uncertainty& sigma, std
   lines.add("\n[uncertainty]");
   lines.add(
       fmt::format("centre = {}\naxes = {:.12g}\nseed = {}", sigma.centre_mm, sigma.axes.degrees(), seed));
-  if (sigma.surface_voxels == 0) lines.add(fmt::format("surface = {}", sigma.surface_mm));
+  if (!sigma.surface_from.empty())
+    lines.add("surface = " + toml_text(sigma.surface_from));
+  else if (sigma.surface_voxels == 0)
+    lines.add(fmt::format("surface = {}", sigma.surface_mm));
 }
 
 /// { column = "knee_flex_r", unit = "rad", sign = -1, offset = 0.5 }

@@ -27,8 +27,11 @@ Json json_of(const motion::BandOptions& options, const Joint& joint) {
   Json sigma{{"centre_mm", options.sigma.centre_mm},
              {"axes_deg", options.sigma.axes.degrees()},
              {"surface_mm", options.sigma.surface_mm}};
+  if (!options.sigma.surface_from.empty()) sigma["surface_from"] = options.sigma.surface_from;
+  // Beside an origin's the grid's part is one of two, and has another name.
   if (options.sigma.is_by_voxels(joint.fixed) || options.sigma.is_by_voxels(joint.mobile))
-    sigma["surface_voxels"] = options.sigma.surface_voxels;
+    sigma[options.sigma.surface_from.empty() ? "surface_voxels" : "grid_voxels"] =
+        options.sigma.surface_voxels;
   if (joint.posed)
     for (const PosedPart& part : joint.posed->parts)
       for (const PartParameter& parameter : part.parameters)

@@ -181,11 +181,17 @@ std::string closed_text(const RomResult& result) {
       form.pair->half_angle.degrees()));
 }
 
+/// "0.84 mm (CT segmented by people; Soodmand 2018: ...)", "0.25 mm (assumed)" or, as it is stated, "0.3 mm".
 std::string surface_text(const motion::Uncertainty& sigma, const Joint& joint) {
   const bool fixed = sigma.is_by_voxels(joint.fixed), mobile = sigma.is_by_voxels(joint.mobile);
   const std::string voxels = fmt::format("{:g} voxels", sigma.surface_voxels);
+  std::string mm = fmt::format("{:g} mm", sigma.surface_mm);
+  for (const motion::SurfaceOrigin& origin : motion::surface_origins())
+    if (origin.name == sigma.surface_from)
+      return fmt::format("{}{} ({}; {})", mm, fixed || mobile ? " and " + voxels + " of images" : "",
+                         origin.what, origin.source);
   if (fixed && mobile) return voxels;
-  const std::string mm = fmt::format("{:g} mm", sigma.surface_mm);
+  if (sigma.surface_voxels > 0) mm += " (assumed)";
   return fixed || mobile
              ? fmt::format("{} ({}) and {}", voxels, (fixed ? joint.fixed : joint.mobile).name, mm)
              : mm;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/rotation_about.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/cut_parts.hpp"
 #include "mesh/vertex_normals.hpp"
 
@@ -12,6 +13,11 @@ namespace {
 bool all_rest(const std::vector<Eigen::Affine3d>& motions) {
   return std::all_of(motions.begin(), motions.end(),
                      [](const auto& motion) { return motion.matrix().isIdentity(0); });
+}
+
+double sd_by_voxels(const Uncertainty& sigma, const BodyImage& image, const Vec3& normal) {
+  const double of_grid = sigma.surface_voxels * image.voxel_width_mm(normal);
+  return sigma.surface_from.empty() ? of_grid : core::hypotenuse(sigma.surface_mm, of_grid);
 }
 
 }  // namespace
@@ -31,9 +37,8 @@ MovableSurface::MovableSurface(const Body& body, const Uncertainty& sigma)
   for (std::size_t v = 0; v < directions_.size(); ++v) {
     if (!(directions_[v].squaredNorm() > 0)) continue;
     const Vec3 normal = directions_[v].normalized();
-    directions_.set(v, sigma.is_by_voxels(body)
-                           ? Vec3(sigma.surface_voxels * body.image->voxel_width_mm(normal) * normal)
-                           : normal);
+    directions_.set(
+        v, sigma.is_by_voxels(body) ? Vec3(sd_by_voxels(sigma, *body.image, normal) * normal) : normal);
     longest_ = std::max(longest_, directions_[v].norm());
   }
 }
