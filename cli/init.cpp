@@ -36,6 +36,7 @@ struct InitArguments {
   std::optional<LengthUnit> units;
   LabelOptions labels;
   Person person;
+  bool seat = false;
   std::string out;
 
   fs::path joint_file() const { return out.empty() ? fs::path("joint.toml") : fs::path(out); }
@@ -66,7 +67,8 @@ void propose_from_meshes(const InitArguments& options) {
                           .units = options.units,
                           .anatomy = anatomy_of(options.joint),
                           .polygons = options.model.polygons.value_or(io::PolygonRule::refuse),
-                          .person = options.person});
+                          .person = options.person,
+                          .seat = options.seat});
   note_to_fill_in(proposal);
   if (options.out.empty()) return print(proposal.toml);
   io::write_output_file(options.out, proposal.toml);
@@ -139,6 +141,9 @@ void init_command(const InitArguments& options, const CLI::App& command) {
   check_out(options);
   io::refuse_unread_image(options.fixed);
   if (!io::label_format_of(options.fixed)) refuse_label_options(command, options.fixed);
+  if (options.seat && (is_model(options.fixed) || io::label_format_of(options.fixed)))
+    throw UsageError(
+        "--seat: is for two meshes; a scan has its bones where they are, and a model says where");
   if (is_model(options.fixed)) return propose_from_model(options);
   if (options.model.any())
     throw UsageError("--anatomy, --contact, --geometry: are for models of OpenSim, .osim");
@@ -189,6 +194,10 @@ void add_init(CLI::App& app) {
               {"in", LengthUnit::inches},
               {"m", LengthUnit::metres}},
              "The unit of both meshes. Default: inferred from their size");
+  command->add_flag(
+      "--seat", options->seat,
+      "Move the mobile mesh so that its head lies in the socket, as bones of shape models need: every "
+      "answer says that it was moved");
   add_species(*command, options->person.species);
   add_value(*command, "-o,--out", options->out, "FILE (standard output)",
             "Write the joint file here, and surfaces of a label map beside it");
@@ -196,7 +205,7 @@ void add_init(CLI::App& app) {
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
   std::vector<std::string> of_models;
   for (const std::string& name : model_names()) of_models.push_back(name);
-  group_help(*command, {{"Joint", {"--joint", "--side", "--units", "--species"}},
+  group_help(*command, {{"Joint", {"--joint", "--side", "--seat", "--units", "--species"}},
                         {"Output", {"--out", "--help"}},
                         {"Label maps", of_labels},
                         {"Models", of_models},

@@ -133,12 +133,13 @@ std::unique_ptr<JointHandle> moved_to(const JointHandle& handle,
 py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
                    const std::filesystem::path& joint_file, const std::optional<std::string>& joint,
                    const std::optional<std::string>& side, const std::optional<std::string>& units,
-                   const std::string& polygons, const std::string& species) {
+                   const std::string& polygons, const std::string& species, bool seat) {
   io::ProposalRequest request{.fixed = fixed,
                               .mobile = mobile,
                               .joint_file = joint_file,
                               .polygons = io::polygon_rule_named(polygons),
-                              .person = {.species = species}};
+                              .person = {.species = species},
+                              .seat = seat};
   if (joint) request.anatomy = anatomy_named(*joint);
   if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
   if (units) request.units = length_unit_named(*units);

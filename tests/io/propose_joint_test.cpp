@@ -143,6 +143,53 @@ TEST_P(ProposedHip, OfAnimalsOfAnySizeIsInMillimetresWithDeviationsOfItsHead) {
   }
 }
 
+/// Bones that a shape model gives apart, or into each other; in centimetres, so that the pose's unit counts.
+TEST_P(ProposedHip, OfBonesApartIsSeatedIfThatIsAsked) {
+  const auto seated = [&](const TriMesh& mobile, const TriMesh& fixed) {
+    io::write_mesh(folder_ / "bone.ply", scaled_by(fixed, 0.1));
+    io::write_mesh(folder_ / "thigh.ply", scaled_by(mobile, 0.1));
+    return io::propose_joint({.fixed = folder_ / "bone.ply",
+                              .mobile = folder_ / "thigh.ply",
+                              .joint_file = folder_ / "joint.toml",
+                              .side = GetParam().side,
+                              .units = LengthUnit::centimetres,
+                              .seat = true});
+  };
+  const auto centres_apart = [](const Joint& joint) {
+    return (find_sphere(joint.fixed.mesh, {.part = SphericalPart::socket, .within = Sphere{Vec3::Zero(), 60}})
+                .fit.sphere.centre -
+            find_sphere(joint.mobile.mesh).fit.sphere.centre)
+        .norm();
+  };
+  const Vec3 directions[] = {{1, 0, 0}, {-0.6, 0.8, 0}, {0, -1, 0}, {0, 0.6, -0.8}};
+  std::vector<double> first;
+  for (const double mm : {1, 8, 15, 30})
+    for (const Vec3& direction : directions) {
+      const Vec3 by = mm * direction;
+      const TriMesh pulled = mapped(mobile_, [&](const Vec3& p) -> Vec3 { return p + by; });
+      const io::LoadedJoint loaded = read(seated(pulled, fixed_).toml);
+      EXPECT_LT(centres_apart(loaded.joint), 0.3) << by.transpose();
+      expect_says(loaded.joint.planned, "thigh seated, moved by ");
+      // Wherever it was: the same joint.
+      std::vector<double> found = limits(loaded.joint);
+      if (first.empty()) first = found;
+      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], first[i], 0.02);
+    }
+  const auto refusal = [&](const TriMesh& mobile, const TriMesh& fixed) {
+    try {
+      (void)seated(mobile, fixed);
+    } catch (const MeshError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  expect_says(refusal(scaled_by(mobile_, 1.3), fixed_), "they do not fit, so nothing is seated");
+  expect_says(refusal(scaled_by(mobile_, 0.6), fixed_), "they do not fit, so nothing is seated");
+  expect_says(refusal(mapped(mobile_, [](const Vec3& p) -> Vec3 { return p + Vec3(0, 0, 300); }), fixed_),
+              "no socket near the head was found to seat");
+  expect_says(refusal(box(Vec3(-20, -20, -20), Vec3(20, 20, 20)), fixed_), "no head was found to seat");
+}
+
 TEST_P(ProposedHip, OfTwoUnitsScalesOneBody) {
   io::write_mesh(folder_ / "bone.ply", fixed_);
   io::write_mesh(folder_ / "thigh.ply", as_exported(mobile_, Axes::joint, 0.1));

@@ -200,6 +200,9 @@ struct ProposalRequest {
   PolygonRule polygons = PolygonRule::refuse;  ///< of both meshes; the file says so too
   Person person = {};  ///< stands in the file; of another species than human no unit is inferred from sizes
   std::optional<std::size_t> mobile_piece = {};  ///< one of femora_in(); default: all of the mesh
+  /// Of a hip: the mobile mesh is moved, and not turned, so that the head's sphere has its centre in the socket's. MeshError where either is
+  /// not found, and where the radii do not fit.
+  bool seat = false;
 };
 
 /// The connected pieces of the mobile mesh that are femora, as large as each other and each with its head in a socket of the fixed one; none if there

@@ -11,6 +11,13 @@
 
 namespace condyle::io {
 
+/// How a bone was moved to have its head in the socket.
+struct Seating {
+  Vec3 moved_mm;
+  double space_mm;  ///< of the socket's radius less the head's
+  bool overlaps;    ///< as seated
+};
+
 /// A body of a joint that is proposed.
 struct ProposedBody {
   TriMesh mesh;                            ///< in the unit of its file
@@ -22,6 +29,7 @@ struct ProposedBody {
   std::string scale_by = {};  ///< evidence for it
   PolygonRule polygons = PolygonRule::refuse;
   bool is_piece_at_joint = false;  ///< and not all of the mesh
+  std::optional<Seating> seating = {};
 };
 
 /// A value that somebody stated, and who did.
@@ -40,6 +48,7 @@ struct ProposalFacts {
       {};  ///< who stated that the meshes are in LPS; default: inferred from the bones
   std::optional<Anatomy> anatomy = {};  ///< default: a hip
   Person person = {};                   ///< as ProposalRequest
+  bool seat = false;                    ///< as ProposalRequest
 };
 
 JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts);

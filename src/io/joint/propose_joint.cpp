@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "condyle/error.hpp"
+#include "condyle/first_contact.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/limit_band.hpp"
@@ -24,6 +26,10 @@
 
 namespace condyle::io {
 namespace {
+
+/// A head is seated in a socket whose radius is larger by this at most, mm of a head of 24 mm radius: bone to bone, cartilage between. A socket is
+/// looked for this far from the head.
+constexpr double widest_space_mm = 8, farthest_seat_mm = 60;
 
 double degrees(double cosine) {
   return core::arccosine(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
@@ -117,6 +123,45 @@ void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy
                                     : std::string()));
 }
 
+/// Moves the mobile body so that its head's sphere and the socket's have one centre: the joint space is as even as the spheres fit.
+Seating seat(const ProposedBody& fixed, ProposedBody& mobile) {
+  const auto found = [](const ProposedBody& body, const SphereSearch& search, const char* what) {
+    try {
+      return find_sphere(Mesh(body.mesh), search).fit.sphere;
+    } catch (const MeshError&) {
+      throw MeshError(fmt::format("{}: no {} was found to seat", body.file.string(), what));
+    }
+  };
+  const Sphere head = found(mobile, {}, "head");
+  // Of both sockets of a pelvis the nearer one.
+  const Sphere socket = found(fixed,
+                              {.part = SphericalPart::socket,
+                               .within = Sphere{head.centre, head.radius + by_head(farthest_seat_mm, head)}},
+                              "socket near the head");
+  const double space = socket.radius - head.radius;
+  if (!(space >= 0 && space <= by_head(widest_space_mm, head)))
+    throw MeshError(
+        fmt::format("{}: its head has a radius of {:.2f} mm and the socket {:.2f}: they do not fit, "
+                    "so nothing is seated",
+                    mobile.file.string(), head.radius, socket.radius));
+  const Vec3 by = socket.centre - head.centre;
+  Points& vertices = mobile.mesh.vertices;
+  for (std::size_t v = 0; v < vertices.size(); ++v) vertices.set(v, vertices[v] + by);
+  const motion::FirstContact contact(Mesh(fixed.mesh), Mesh(mobile.mesh),
+                                     AxisFrame(socket.centre, Vec3::UnitZ()));
+  return {by, space, !contact.limits(Pose::Identity(), {Angle(), Angle()}).free_at_start()};
+}
+
+/// X_WB of a bone that was seated.
+void add_pose(ProposalLines& lines, const Seating& seating, double per_mm) {
+  const Vec3 by = per_mm * seating.moved_mm;
+  lines.key("pose",
+            fmt::format("[1, 0, 0, {}, 0, 1, 0, {}, 0, 0, 1, {}, 0, 0, 0, 1]", by.x(), by.y(), by.z()),
+            fmt::format("--seat: moved by {} mm, not turned; the spheres leave a space of {:.2f} mm{}",
+                        core::rounded(seating.moved_mm, 2), seating.space_mm,
+                        seating.overlaps ? "; as seated the bones overlap" : ""));
+}
+
 /// The usual deviations are a human's: those of another species are as large a share of the head's radius.
 void add_uncertainty(ProposalLines& lines, const Sphere& head, double per_mm) {
   const motion::Uncertainty usual;
@@ -136,6 +181,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   const LengthUnit units = inferred ? inferred->value : LengthUnit::millimetres;
   fixed.mesh = surface_in_mm(fixed, units);
   mobile.mesh = surface_in_mm(mobile, units);
+  if (facts.seat) mobile.seating = seat(fixed, mobile);
   auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
   for (ProposedBody* body : {&fixed, &mobile})
     if (hip && !body->image)
@@ -173,9 +219,15 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
         lines, facts.side, side,
         axes.agreeing.empty() ? axes.why_none : "more than one pair of axes and side agrees with the bones");
   add_units(lines, inferred, fixed, mobile);
+  if (mobile.seating)
+    lines.key(
+        "planned",
+        toml_text(fmt::format("{} seated, moved by {:.1f} mm", mobile.name, mobile.seating->moved_mm.norm())),
+        "every answer says so: the bones were not measured where they are now");
 
   add_body(lines, "fixed", fixed, facts.joint_file);
   add_body(lines, "mobile", mobile, facts.joint_file);
+  if (mobile.seating) add_pose(lines, *mobile.seating, 1 / mm_per(units));
 
   lines.add("\n[frame]");
   add_centre(
@@ -223,6 +275,9 @@ JointProposal propose_joint(const ProposalRequest& request) {
   if (request.units) facts.units = {*request.units, "given"};
   facts.anatomy = request.anatomy;
   facts.person = request.person;
+  facts.seat = request.seat;
+  if (facts.seat && facts.anatomy.value_or(Anatomy::hip) != Anatomy::hip)
+    throw UsageError("--seat: is for a hip");
   ProposedBody fixed = body(request.fixed), mobile = body(request.mobile);
   if (fixed.mesh.vertices == mobile.mesh.vertices && fixed.mesh.triangles == mobile.mesh.triangles)
     throw UsageError(
