@@ -25,6 +25,7 @@ FunctionalFrame functional_frame(const LoadedJoint& joint, const MotionTable& ta
   for (const std::optional<Pose>& X_AB : recorded.X_FM)
     if (X_AB) X_FM.push_back(frames.X_FA * *X_AB * X_BM);
   FunctionalFrame frame{table.path, kinematics::FunctionalCentre{}, recorded.processing};
+  for (const motion::ContactNote& note : recorded.notes) frame.processing.push_back(note.text);
   try {
     if (joint.joint.kind == JointKind::ball)
       frame.found = kinematics::functional_centre(X_FM);

@@ -157,7 +157,8 @@ std::string text_of(const LoadedJoint& loaded, const FunctionalFrame& by_motion)
            fmt::format(
                "    centre {} mm in the frame of the meshes, {:.2f} mm from the one above; 95 % within "
                "{:.2f} mm\n    residual {:.2f} mm; the bones as given have it {:.2f} mm apart\n    for the "
-               "joint file: frame.centre = [{:.6g}, {:.6g}, {:.6g}], uncertainty.centre = {:.3g}\n",
+               "joint file: frame.centre = [{:.6g}, {:.6g}, {:.6g}], uncertainty.centre = {:.3g} by noise "
+               "alone\n",
                shown(in_meshes), centre->in_fixed.norm(), centre->centre_bound_mm, centre->residual_mm,
                apart_as_given_mm(loaded, *centre), per_mm * in_meshes.x(), per_mm * in_meshes.y(),
                per_mm * in_meshes.z(), per_mm * centre->sd_mm) +
