@@ -349,13 +349,14 @@ struct SearchedPoints {
 /// Fits, keeps what lies within the band of the fit, connected, and fits again until the same vertices come
 /// back. On the way a rough fit does; where the vertices stay, they are fitted with care and must stay again. A vertex at the
 /// edge of the band may come and go for ever, as on surfaces of voxels: then the last vertices are taken if the sphere stays
-/// where it is. Empty where it comes to a part that is known.
+/// where it is, else, if it goes to and fro near one place, those that were in all of the last parts. Empty where it comes to a part that is
+/// known.
 std::optional<BallPart> grown(const SearchedPoints& searched, Sphere sphere, double inwards,
                               const Radii& radii, const std::vector<BallPart>& known) {
   const auto& [mesh, points, neighbours, places] = searched;
-  constexpr int most_rounds = 60;
+  constexpr int most_rounds = 60, last_rounds = 12;
   double band = first_band * sphere.radius;
-  std::vector<Index> part;
+  std::vector<Index> part, always;
   std::optional<SphereFit> fit;
   bool same = false;
   double moved = std::numeric_limits<double>::infinity();
@@ -370,6 +371,8 @@ std::optional<BallPart> grown(const SearchedPoints& searched, Sphere sphere, dou
     same = next == part;
     if (same && fit) return measured(points, part, std::move(*fit));
     part = std::move(next);
+    if (round == most_rounds - last_rounds) always = part;
+    std::erase_if(always, [&](Index i) { return !std::binary_search(part.begin(), part.end(), i); });
     fit.reset();
     const auto rough = same ? std::nullopt : roughly_fitted(places, part, sphere);
     try {
@@ -391,7 +394,9 @@ std::optional<BallPart> grown(const SearchedPoints& searched, Sphere sphere, dou
     band = std::clamp(ball_deviations_kept * kinematics::robust_deviation(std::move(residuals)),
                       narrowest_ball_band * sphere.radius, widest_band * sphere.radius);
   }
-  if (!(moved < settled * sphere.radius)) return std::nullopt;
+  if (!(moved < arrived * sphere.radius)) return std::nullopt;
+  if (!(moved < settled * sphere.radius)) part = std::move(always);
+  if (part.size() < fewest_ball_vertices) return std::nullopt;
   try {
     return measured(points, part, fit_sphere(mesh.vertices, kinematics::vertices_of(points, part)));
   } catch (const MeshError&) {

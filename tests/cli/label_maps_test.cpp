@@ -37,8 +37,10 @@ TEST_F(LabelMaps, BecomeJointsWithLimits) {
   EXPECT_EQ(ct["band"]["sigma"]["surface_from"], "ct");
   EXPECT_EQ(ct["band"]["sigma"]["surface_mm"], 0.84);
   EXPECT_EQ(ct["band"]["sigma"]["grid_voxels"], 0.25);
-  EXPECT_GT(ct["motions"][10]["band"]["width_from_deg"]["surface"],
-            image["motions"][10]["band"]["width_from_deg"]["surface"]);
+  const auto width = [](const Json& answer) {
+    return answer["motions"][10]["band"]["width_from"]["surface_deg"].get<double>();
+  };
+  EXPECT_GT(width(ct), width(image));
   EXPECT_TRUE(says(done("rom right/ct.toml --band=20").out, "Soodmand 2018"));
   EXPECT_TRUE(says(done("rom hip.toml --band=20").out, "surfaces 0.25 mm (assumed)"));
   EXPECT_EQ(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "condyle/first_contact.hpp"
@@ -30,6 +31,8 @@ namespace {
 /// A head is seated in a socket whose radius is larger by this at most, mm of a head of 24 mm radius: bone to bone, cartilage between. A socket is
 /// looked for this far from the head.
 constexpr double widest_space_mm = 8, farthest_seat_mm = 60;
+constexpr int most_seatings = 10;
+constexpr double seated_within_mm = 0.01;
 
 double degrees(double cosine) {
   return core::arccosine(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
@@ -134,10 +137,17 @@ Seating seat(const ProposedBody& fixed, ProposedBody& mobile) {
   };
   const Sphere head = found(mobile, {}, "head");
   // Of both sockets of a pelvis the nearer one.
-  const Sphere socket = found(fixed,
-                              {.part = SphericalPart::socket,
-                               .within = Sphere{head.centre, head.radius + by_head(farthest_seat_mm, head)}},
-                              "socket near the head");
+  Sphere socket = found(fixed,
+                        {.part = SphericalPart::socket,
+                         .within = Sphere{head.centre, head.radius + by_head(farthest_seat_mm, head)}},
+                        "socket near the head");
+  // Answers take the sphere about the head as it lies: that of the new place, until it stays.
+  for (int i = 0; i < most_seatings; ++i) {
+    const auto around = kinematics::sphere_around(fixed.mesh, {socket.centre, head.radius});
+    if (!around) break;
+    const Vec3 before = std::exchange(socket, around->fit.sphere).centre;
+    if ((socket.centre - before).norm() < seated_within_mm) break;
+  }
   const double space = socket.radius - head.radius;
   if (!(space >= 0 && space <= by_head(widest_space_mm, head)))
     throw MeshError(
