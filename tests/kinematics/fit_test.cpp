@@ -338,7 +338,7 @@ TEST(FindSphere, AHeadIsFoundWhereItsVerticesNeverStayTheSame) {
   EXPECT_NEAR(head.fit.sphere.radius, radius, 0.1);
 }
 
-/// On a coarse femur parts of a head that differ by some vertices may follow each other for ever: of 600 copies that are a little off, some did.
+/// On a coarse femur parts of a head that differ by some vertices may follow each other for ever: of 600 copies that are a little off, one did.
 TEST(FindSphere, AHeadIsFoundWhereItsSphereNeverStays) {
   FOUND_OR_SKIP(data, test::shared_data());
   const TriMesh femur = test::read_ply(*data / "hip_gait2392_lowres_dirty" / "femur_r.ply");
@@ -346,10 +346,12 @@ TEST(FindSphere, AHeadIsFoundWhereItsSphereNeverStays) {
   std::uniform_real_distribution<double> off(-0.5, 0.5);
   const Sphere head = find_sphere(femur).fit.sphere;
   for (int i = 0; i < 600; ++i) {
-    const Sphere again = find_sphere(test::mapped(femur, [&](const Vec3& p) -> Vec3 {
-                           return p + Vec3(off(random), off(random), off(random));
-                         })).fit.sphere;
-    EXPECT_LT((again.centre - head.centre).norm(), 1.5) << i;
+    TriMesh copy = femur;
+    for (std::size_t v = 0; v < copy.vertices.size(); ++v) {
+      const double x = off(random), y = off(random), z = off(random);
+      copy.vertices.set(v, femur.vertices[v] + Vec3(x, y, z));
+    }
+    EXPECT_LT((find_sphere(copy).fit.sphere.centre - head.centre).norm(), 0.5) << i;
   }
 }
 
